@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Labelled space carving in a Delaunay triangulation (Romanoni et al. 2017, Sec. 3; algorithm after
+// Litvinov & Lhuillier 2014 and Romanoni & Matteucci 2015).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/points/labeled_point.h"
+
+namespace facet_mapping {
+
+struct CarvingConfig {
+  double free_space_threshold = 1.0;  ///< least free-space evidence of a free cell, in rays
+  double behind_distance_m = 0.5;     ///< how far behind a point its label is evidence, metres
+  double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
+  double steiner_margin_m = 12.0;     ///< how far beyond the points the extra vertices reach
+  double min_point_spacing_m = 0.05;  ///< a point nearer to a vertex than this joins its rays
+};
+
+/// One frame's points in the map frame, all seen from `center`.
+struct CarvingFrame {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  struct Ray {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    Label label = kUnlabelled;
+    float sigma = 0.0F;  ///< standard deviation along the ray, metres
+  };
+  std::vector<Ray> rays;
+};
+
+/// The surface between free space and matter. Vertex ids stay the same from one call to the next.
+struct CarvedSurface {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> vertex_ids;  ///< one per mesh vertex
+};
+
+struct CarvingStats {
+  std::size_t vertices = 0;
+  std::size_t cells = 0;
+  std::size_t rays = 0;
+  std::size_t free_cells = 0;     ///< cells that the evidence calls free
+  std::size_t reached_cells = 0;  ///< of those, cells inside the manifold free space
+};
+
+class SpaceCarver {
+ public:
+  explicit SpaceCarver(const CarvingConfig& config);
+  ~SpaceCarver();
+  SpaceCarver(SpaceCarver&&) noexcept;
+  SpaceCarver& operator=(SpaceCarver&&) noexcept;
+
+  /// Adds points and rays; afterwards every cell's evidence is that of one batch over all rays.
+  /// Throws std::invalid_argument on coordinates that are not finite.
+  void insert(const std::vector<CarvingFrame>& frames);
+
+  /// The manifold surface of the present evidence: always a closed 2-manifold, or empty.
+  CarvedSurface extract_surface();
+
+  CarvingStats stats() const;
+  void clear();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace facet_mapping

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Labelled points from a rectified stereo pair (OpenCV semi-global matching).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "facet_mapping/geometry/camera.h"
+#include "facet_mapping/points/labeled_point.h"
+
+namespace facet_mapping {
+
+struct StereoConfig {
+  int num_disparities = 128;             ///< search range in pixels, a multiple of 16
+  int block_size = 5;                    ///< matching window in pixels, odd
+  int uniqueness_percent = 5;            ///< margin of the best over the second-best cost
+  double left_right_tolerance_px = 1.0;  ///< largest disagreement of the two directions
+  int speckle_size_px = 100;             ///< smaller regions of similar disparity are dropped
+  double disparity_sigma_px = 0.5;   ///< matching noise that the range limit and sigma come from
+  double max_relative_sigma = 0.05;  ///< points with sigma / depth above this are dropped
+  double min_depth_m = 1.0;          ///< nearer points are dropped
+  double max_depth_m = 60.0;         ///< farther points are dropped
+  int cell_px = 6;                   ///< at most one point per cell of this size ...
+  double min_gradient =
+      8.0;  ///< ... the pixel of strongest gradient, if above this (8-bit units per pixel)
+  int flat_cell_px = 18;  ///< cell size where no pixel reaches min_gradient
+};
+
+struct StereoReport {
+  std::size_t matched_pixels = 0;
+  std::size_t points = 0;
+};
+
+/// Disparity (CV_32F, pixels, NaN where none) of a rectified 8-bit grey pair, left-right checked.
+/// Throws std::invalid_argument on unequal sizes or types.
+cv::Mat stereo_disparity(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config);
+
+/// Thinned points in the left camera's optical frame. `labels` (CV_16UC1 ids) may be empty.
+std::vector<LabeledPoint> stereo_points(const cv::Mat& left,
+                                        const cv::Mat& right,
+                                        const cv::Mat& labels,
+                                        const PinholeCamera& camera,
+                                        double baseline_m,
+                                        const StereoConfig& config,
+                                        StereoReport* report = nullptr);
+
+}  // namespace facet_mapping

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The refinement loop: photometric flow, semantic flow, smoothing, subdivision, relabelling
+// (Romanoni et al. 2017, Sec. 3.2; Vu et al. 2012).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/labeling/facet_labeling.h"
+#include "facet_mapping/labels/label_set.h"
+#include "facet_mapping/labels/labeled_view.h"
+
+namespace facet_mapping {
+
+enum class SemanticMode {
+  kOff,     ///< photometric only (Vu et al. 2012)
+  kNormal,  ///< only the part of the semantic gradient along the vertex normal (the paper)
+  kFull,    ///< the whole gradient: class borders may also slide over the surface
+};
+
+struct RefinementConfig {
+  int levels = 2;                                 ///< image pyramid levels, coarse to fine
+  int iterations = 5;                             ///< iterations per level (the paper's K)
+  bool photometric = true;                        ///< use the photometric flow
+  SemanticMode semantic = SemanticMode::kNormal;  ///< how the semantic flow acts
+  double semantic_weight = 1.0;     ///< weight of the semantic energy beside the photometric one
+  double smoothing = 0.2;           ///< weight of the umbrella operator, 0..1
+  double thin_plate = 0.2;          ///< weight of the second-order smoothing, 0..1
+  int ncc_window_px = 5;            ///< side of the correlation window, odd
+  int semantic_window_px = 7;       ///< side of the semantic window W, odd
+  double min_incidence_cos = 0.15;  ///< pixels that see the surface at a flatter angle do not count
+  int pairs_per_view = 3;           ///< best partners kept for each view
+  double max_step_edge_fraction = 0.25;  ///< longest step of a vertex, in mean edge lengths
+  double subdivide_px = 24.0;  ///< facets covering more pixels in their best view are split
+  bool relabel = true;         ///< run the labelling after each level
+  LabelingConfig labeling;
+};
+
+/// One term's energy, for the report and the progress topic.
+struct EnergyTerms {
+  double photometric = 0.0;  ///< mean of r * (1 - zncc) over the pixels of all pairs
+  double semantic = 0.0;     ///< mean semantic error over the gated pixels of all views
+};
+
+struct RefinementProgress {
+  int level = 0;
+  int iteration = 0;
+  double fraction = 0.0;  ///< of the whole job, 0..1
+  EnergyTerms energy;
+};
+
+/// Returns false to stop: the best mesh so far is returned.
+using ProgressCallback = std::function<bool(const RefinementProgress&)>;
+
+struct RefinementResult {
+  TriangleMesh mesh;
+  EnergyTerms before;  ///< of the start mesh on the finest level's images
+  EnergyTerms after;   ///< of the result on the same images
+  std::size_t facets_before = 0;
+  std::size_t facets_after = 0;
+  std::size_t relabelled = 0;
+  bool cancelled = false;
+};
+
+/// Moves the vertices of `mesh` so that images and segmentations agree with it.
+/// Throws std::invalid_argument if fewer than two views are given, a view has no image of the
+/// camera's size, the mesh is invalid or the configuration is out of range.
+RefinementResult refine(const TriangleMesh& mesh,
+                        const std::vector<LabeledView>& views,
+                        const LabelSet& labels,
+                        const RefinementConfig& config,
+                        const ProgressCallback& progress = {});
+
+}  // namespace facet_mapping

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/geometry/mesh.h"
+
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Geometry>
+
+namespace facet_mapping {
+namespace {
+
+void check_attribute(std::size_t size, std::size_t facets, const char* name) {
+  if (size != 0 && size != facets) {
+    throw std::invalid_argument("mesh: " + std::to_string(size) + " " + name + " for " +
+                                std::to_string(facets) + " facets; give one per facet or none");
+  }
+}
+
+template <typename T>
+std::vector<T> select(const std::vector<T>& values, const std::vector<bool>& keep) {
+  std::vector<T> selected;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (keep[k]) {
+      selected.push_back(values[k]);
+    }
+  }
+  return selected;
+}
+
+}  // namespace
+
+void validate(const TriangleMesh& mesh) {
+  check_attribute(mesh.labels.size(), mesh.triangles.size(), "labels");
+  check_attribute(mesh.confidence.size(), mesh.triangles.size(), "confidences");
+  check_attribute(mesh.views.size(), mesh.triangles.size(), "view counts");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) {
+      throw std::invalid_argument("mesh: vertex " + std::to_string(v) + " is not finite");
+    }
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      if (v >= mesh.vertices.size()) {
+        throw std::invalid_argument("mesh: facet " + std::to_string(f) + " names vertex " +
+                                    std::to_string(v) + " of only " +
+                                    std::to_string(mesh.vertices.size()));
+      }
+    }
+  }
+}
+
+Eigen::Vector3d facet_cross(const TriangleMesh& mesh, std::size_t facet) {
+  const Triangle& t = mesh.triangles[facet];
+  const Eigen::Vector3d& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+}
+
+std::vector<Eigen::Vector3d> facet_normals(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.triangles.size());
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    normals[f] = facet_cross(mesh, f).normalized();
+  }
+  return normals;
+}
+
+std::vector<Eigen::Vector3d> vertex_normals(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Eigen::Vector3d cross = facet_cross(mesh, f);
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      normals[v] += cross;
+    }
+  }
+  for (Eigen::Vector3d& normal : normals) {
+    normal.normalize();
+  }
+  return normals;
+}
+
+TriangleMesh select_facets(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  TriangleMesh selected;
+  constexpr std::uint32_t kUnused = 0xFFFFFFFF;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!keep[f]) {
+      continue;
+    }
+    Triangle triangle = mesh.triangles[f];
+    for (std::uint32_t& v : triangle) {
+      if (new_index[v] == kUnused) {
+        new_index[v] = static_cast<std::uint32_t>(selected.vertices.size());
+        selected.vertices.push_back(mesh.vertices[v]);
+      }
+      v = new_index[v];
+    }
+    selected.triangles.push_back(triangle);
+  }
+  selected.labels = select(mesh.labels, keep);
+  selected.confidence = select(mesh.confidence, keep);
+  selected.views = select(mesh.views, keep);
+  return selected;
+}
+
+}  // namespace facet_mapping
