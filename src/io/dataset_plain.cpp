@@ -23,23 +23,31 @@ FrameFolders folders_in(const std::string& folder) {
   return folders;
 }
 
+void check_stated_baseline(const CalibFile& calib,
+                           const std::string& source,
+                           const Dataset& dataset,
+                           Problems& problems) {
+  const auto baseline = calib.has("baseline_m") ? calib.numbers("baseline_m", 1) : std::nullopt;
+  if (baseline && std::abs(baseline->front() - dataset.baseline_m()) > 1e-4) {
+    problems.add(source + ": baseline_m " + std::to_string(baseline->front()) +
+                 " contradicts T_right_left, which says " + std::to_string(dataset.baseline_m()));
+  }
+}
+
 void read_extrinsics(const CalibFile& calib,
                      const std::string& source,
                      Dataset& dataset,
                      Problems& problems) {
   if (dataset.has_right) {
-    dataset.right_from_left = calib.transform("T_right_left").value_or(dataset.right_from_left);
-    check_baseline(dataset, source, problems);
+    const auto right_from_left = calib.transform("T_right_left");
+    if (right_from_left) {
+      dataset.right_from_left = *right_from_left;
+      check_baseline(dataset, source, problems);
+      check_stated_baseline(calib, source, dataset, problems);
+    }
   }
   if (dataset.has_scans) {
     dataset.left_from_velo = calib.transform("T_left_velo").value_or(dataset.left_from_velo);
-  }
-  if (dataset.has_right && calib.has("baseline_m")) {
-    const auto baseline = calib.numbers("baseline_m", 1);
-    if (baseline && std::abs(baseline->front() - dataset.baseline_m()) > 1e-4) {
-      problems.add(source + ": baseline_m " + std::to_string(baseline->front()) +
-                   " contradicts T_right_left, which says " + std::to_string(dataset.baseline_m()));
-    }
   }
 }
 
