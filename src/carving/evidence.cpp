@@ -41,6 +41,14 @@ Weight LabelEvidence::largest() const {
   return largest;
 }
 
+Weight LabelEvidence::sum() const {
+  Weight sum = 0;
+  for (const auto& [label, weight] : weights_) {
+    sum += weight;
+  }
+  return sum;
+}
+
 Label LabelEvidence::best() const {
   Label best = kUnlabelled;
   Weight most = 0;

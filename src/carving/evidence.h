@@ -29,6 +29,7 @@ class LabelEvidence {
 
   bool empty() const { return weights_.empty(); }
   Weight largest() const;
+  Weight sum() const;
   /// The class with most evidence (the smaller id on a tie), kUnlabelled if there is none.
   Label best() const;
   /// (best - second best) / sum, 0 without evidence.

@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace facet_mapping::carving {
 
-FreeSpaceGrowth::FreeSpaceGrowth(Triangulation* triangulation, Weight threshold)
-    : triangulation_(*triangulation), threshold_(threshold) {}
+FreeSpaceGrowth::FreeSpaceGrowth(Triangulation* triangulation, std::vector<CellHandle> free_cells)
+    : triangulation_(*triangulation), by_weight_(std::move(free_cells)) {}
 
 GrowthStats FreeSpaceGrowth::grow() {
   stats_ = {};
-  classify_cells();
+  clear();
   // A cell that touches nothing may start a region of its own; most evidence goes first.
   for (const CellHandle seed : by_weight_) {
     if (!seed->info().in_free_set && can_add(seed)) {
@@ -26,27 +27,14 @@ GrowthStats FreeSpaceGrowth::grow() {
   return stats_;
 }
 
-void FreeSpaceGrowth::classify_cells() {
-  by_weight_.clear();
-  std::uint32_t order = 0;
-  for (const VertexHandle vertex : triangulation_.finite_vertex_handles()) {
+void FreeSpaceGrowth::clear() {
+  stats_.free_cells = by_weight_.size();
+  for (const VertexHandle vertex : triangulation_.all_vertex_handles()) {
     vertex->info().free_cells = 0;
   }
   for (const CellHandle cell : triangulation_.all_cell_handles()) {
-    CellInfo& info = cell->info();
-    info.order = order++;
-    info.in_free_set = false;
-    info.is_free = !triangulation_.is_infinite(cell) && info.free >= threshold_ &&
-                   info.free > info.labels.largest();
-    if (info.is_free) {
-      by_weight_.push_back(cell);
-    }
+    cell->info().in_free_set = false;
   }
-  stats_.free_cells = by_weight_.size();
-  std::sort(by_weight_.begin(), by_weight_.end(), [](CellHandle a, CellHandle b) {
-    return a->info().free != b->info().free ? a->info().free > b->info().free
-                                            : a->info().order < b->info().order;
-  });
 }
 
 void FreeSpaceGrowth::grow_single_cells() {

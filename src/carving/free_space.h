@@ -20,8 +20,8 @@ struct GrowthStats {
 
 class FreeSpaceGrowth {
  public:
-  /// `threshold`: least evidence of a free cell.
-  FreeSpaceGrowth(Triangulation* triangulation, Weight threshold);
+  /// `free_cells`: the cells with is_free set, most evidence first.
+  FreeSpaceGrowth(Triangulation* triangulation, std::vector<CellHandle> free_cells);
 
   /// Sets in_free_set of every cell and free_cells of every vertex.
   GrowthStats grow();
@@ -36,7 +36,7 @@ class FreeSpaceGrowth {
     }
   };
 
-  void classify_cells();
+  void clear();
   void grow_single_cells();
   bool add_around_vertices();
   bool can_add(CellHandle cell) const;
@@ -47,7 +47,6 @@ class FreeSpaceGrowth {
   void push_neighbours(CellHandle cell);
 
   Triangulation& triangulation_;
-  Weight threshold_;
   std::priority_queue<Candidate> queue_;
   std::vector<CellHandle> by_weight_;  ///< free cells, most evidence first
   GrowthStats stats_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "carving/classification.h"
 #include "carving/free_space.h"
 #include "carving/point_index.h"
 #include "carving/ray_walk.h"
@@ -28,8 +29,8 @@ Point to_point(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// Moves a sensor position by far less than it is known, so that no ray runs exactly through an edge
-/// or a vertex (as happens to a sensor at the origin of round coordinates).
+/// Moves a sensor position by far less than it is known, so that no ray runs exactly through an
+/// edge or a vertex (as happens to a sensor at the origin of round coordinates).
 Point general_position(const Eigen::Vector3d& center, std::size_t index, double amount_m) {
   const double angle = 2.399963 * static_cast<double>(index + 1);  // the golden angle
   const Eigen::Vector3d offset(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
@@ -71,6 +72,8 @@ void validate(const CarvingConfig& config) {
     }
   };
   require(config.free_space_threshold >= 0.0, "free_space_threshold", "zero or more");
+  require(config.surface_quality_weight >= 0.0, "surface_quality_weight", "zero or more");
+  require(config.evidence_cap > 0.0, "evidence_cap", "positive");
   require(config.behind_distance_m > 0.0, "behind_distance_m", "positive");
   require(config.steiner_spacing_m >= 0.0, "steiner_spacing_m", "zero (none) or positive");
   require(config.steiner_reach_m >= 0.0, "steiner_reach_m", "zero or more");
@@ -280,8 +283,7 @@ CarvedSurface SpaceCarver::Impl::extract_surface() {
   if (triangulation_.dimension() != 3) {
     return {};
   }
-  const double threshold = std::max(1.0, config_.free_space_threshold * kRayWeight);
-  growth_ = FreeSpaceGrowth(&triangulation_, static_cast<Weight>(std::lround(threshold))).grow();
+  growth_ = FreeSpaceGrowth(&triangulation_, classify_cells(&triangulation_, config_)).grow();
   return make_surface(triangulation_);
 }
 
@@ -342,6 +344,8 @@ CarvingStats SpaceCarver::stats() const {
   return impl_->stats();
 }
 
-std::vector<CellEvidence> SpaceCarver::evidence() const { return impl_->evidence(); }
+std::vector<CellEvidence> SpaceCarver::evidence() const {
+  return impl_->evidence();
+}
 
 }  // namespace facet_mapping

@@ -28,12 +28,12 @@ LabelEvidence facet_evidence(CellHandle matter, const std::array<VertexHandle, 3
 class SurfaceBuilder {
  public:
   void add_facet(CellHandle free, int facet) {
-    // CGAL: the facet (i+1, i+2, i+3) of an even i runs clockwise seen from outside the cell, which
+    // CGAL: the facet (i+1, i+2, i+3) of an odd i runs clockwise seen from outside the cell, which
     // is counter-clockwise seen from inside, from free space.
     std::array<VertexHandle, 3> corners{free->vertex((facet + 1) & 3),
                                         free->vertex((facet + 2) & 3),
                                         free->vertex((facet + 3) & 3)};
-    if (facet % 2 == 1) {
+    if (facet % 2 == 0) {
       std::swap(corners[0], corners[1]);
     }
     surface_.mesh.triangles.push_back({index(corners[0]), index(corners[1]), index(corners[2])});

@@ -16,9 +16,19 @@
 
 namespace facet_mapping {
 
+/// How cells are called free before the manifold free space grows over them.
+enum class Extraction {
+  kCount,     ///< free-space evidence above a threshold and above every class's (the paper)
+  kGraphCut,  ///< minimum cut between free space and matter with a surface quality term (Labatut
+              ///< 2009)
+};
+
 struct CarvingConfig {
-  double free_space_threshold = 1.0;  ///< least free-space evidence of a free cell, in rays
-  double behind_distance_m = 0.5;     ///< how far behind a point its label is evidence, metres
+  Extraction extraction = Extraction::kGraphCut;  ///< how cells are called free
+  double surface_quality_weight = 1.0;  ///< graph cut: cost of a badly shaped facet, in rays
+  double evidence_cap = 32.0;           ///< graph cut: most evidence that a cell can have, in rays
+  double free_space_threshold = 1.0;    ///< least free-space evidence of a free cell, in rays
+  double behind_distance_m = 0.5;       ///< how far behind a point its label is evidence, metres
   double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
   double steiner_reach_m = 52.0;      ///< how far around a sensor extra vertices are laid, metres
   double steiner_clearance_m = 0.5;   ///< extra vertices keep this far from points, metres
