@@ -149,9 +149,10 @@ void expect_follows_camera(const cv::Size& from, const cv::Size& to) {
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
       const int id = resized.at<Label>(y, x);
+      const int source_y = id / from.width;
       const Eigen::Vector2d pixel = camera.project(resized_camera.ray({x, y}));
       EXPECT_LE(std::abs(pixel.x() - id % from.width), 0.5 + 1e-9);
-      EXPECT_LE(std::abs(pixel.y() - id / from.width), 0.5 + 1e-9);
+      EXPECT_LE(std::abs(pixel.y() - source_y), 0.5 + 1e-9);
     }
   }
 }
