@@ -78,6 +78,7 @@ void validate(const CarvingConfig& config) {
   require(config.steiner_spacing_m >= 0.0, "steiner_spacing_m", "zero (none) or positive");
   require(config.steiner_reach_m >= 0.0, "steiner_reach_m", "zero or more");
   require(config.steiner_clearance_m >= 0.0, "steiner_clearance_m", "zero or more");
+  require(config.max_facet_edge_m > 0.0, "max_facet_edge_m", "positive");
   require(config.min_point_spacing_m > 0.0, "min_point_spacing_m", "positive");
 }
 
@@ -284,7 +285,7 @@ CarvedSurface SpaceCarver::Impl::extract_surface() {
     return {};
   }
   growth_ = FreeSpaceGrowth(&triangulation_, classify_cells(&triangulation_, config_)).grow();
-  return make_surface(triangulation_);
+  return make_surface(triangulation_, config_.max_facet_edge_m);
 }
 
 CarvingStats SpaceCarver::Impl::stats() const {

@@ -9,16 +9,24 @@
 namespace facet_mapping::carving {
 namespace {
 
-LabelEvidence facet_evidence(CellHandle matter, const std::array<VertexHandle, 3>& corners) {
-  LabelEvidence evidence;
-  for (const VertexHandle corner : corners) {
-    if (corner->info().steiner) {
-      return {};  // closes the surface through empty space: nothing was seen here
+using Corners = std::array<VertexHandle, 3>;
+
+/// True if points stand close together at the corners: something was seen there.
+bool is_observed(const Corners& corners, double max_edge_m) {
+  for (int k = 0; k < 3; ++k) {
+    const double edge = CGAL::squared_distance(corners[k]->point(), corners[(k + 1) % 3]->point());
+    if (corners[k]->info().steiner || edge > max_edge_m * max_edge_m) {
+      return false;
     }
   }
+  return true;
+}
+
+LabelEvidence facet_evidence(CellHandle matter, const Corners& corners) {
   if (!matter->info().labels.empty()) {
     return matter->info().labels;
   }
+  LabelEvidence evidence;
   for (const VertexHandle corner : corners) {
     evidence.add(corner->info().labels);
   }
@@ -27,17 +35,21 @@ LabelEvidence facet_evidence(CellHandle matter, const std::array<VertexHandle, 3
 
 class SurfaceBuilder {
  public:
+  explicit SurfaceBuilder(double max_edge_m) : max_edge_m_(max_edge_m) {}
+
   void add_facet(CellHandle free, int facet) {
     // CGAL: the facet (i+1, i+2, i+3) of an odd i runs clockwise seen from outside the cell, which
     // is counter-clockwise seen from inside, from free space.
-    std::array<VertexHandle, 3> corners{free->vertex((facet + 1) & 3),
-                                        free->vertex((facet + 2) & 3),
-                                        free->vertex((facet + 3) & 3)};
+    Corners corners{free->vertex((facet + 1) & 3),
+                    free->vertex((facet + 2) & 3),
+                    free->vertex((facet + 3) & 3)};
     if (facet % 2 == 0) {
       std::swap(corners[0], corners[1]);
     }
     surface_.mesh.triangles.push_back({index(corners[0]), index(corners[1]), index(corners[2])});
-    const LabelEvidence evidence = facet_evidence(free->neighbor(facet), corners);
+    const LabelEvidence evidence = is_observed(corners, max_edge_m_)
+                                       ? facet_evidence(free->neighbor(facet), corners)
+                                       : LabelEvidence{};
     surface_.mesh.labels.push_back(evidence.best());
     surface_.mesh.confidence.push_back(evidence.margin());
   }
@@ -56,14 +68,15 @@ class SurfaceBuilder {
     return at->second;
   }
 
+  double max_edge_m_;
   CarvedSurface surface_;
   std::unordered_map<std::uint32_t, std::uint32_t> index_of_id_;
 };
 
 }  // namespace
 
-CarvedSurface make_surface(const Triangulation& triangulation) {
-  SurfaceBuilder builder;
+CarvedSurface make_surface(const Triangulation& triangulation, double max_edge_m) {
+  SurfaceBuilder builder(max_edge_m);
   for (const CellHandle cell : triangulation.finite_cell_handles()) {
     if (!cell->info().in_free_set) {
       continue;

@@ -32,6 +32,7 @@ struct CarvingConfig {
   double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
   double steiner_reach_m = 52.0;      ///< how far around a sensor extra vertices are laid, metres
   double steiner_clearance_m = 0.5;   ///< extra vertices keep this far from points, metres
+  double max_facet_edge_m = 2.5;      ///< facets with a longer edge carry no class, metres
   double min_point_spacing_m = 0.05;  ///< a point nearer to a vertex than this joins it, metres
 };
 
