@@ -14,8 +14,8 @@
 
 namespace facet_mapping {
 
-/// One instant of a dataset. Paths are empty where the folder has no such file. KITTI poses are in a
-/// map frame with z up (REP-103: the first camera, x forward, y left), Strecha poses as given.
+/// One instant of a dataset. Paths are empty where the folder has no such file. KITTI poses are in
+/// a map frame with z up (REP-103: the first camera, x forward, y left), Strecha poses as given.
 struct DatasetFrame {
   double stamp = 0.0;  ///< seconds
   View view;           ///< left (or only) camera
