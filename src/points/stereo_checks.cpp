@@ -3,8 +3,9 @@
 #include "stereo_checks.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "rules.h"
 
 namespace facet_mapping::detail {
 namespace {
@@ -12,25 +13,6 @@ namespace {
 std::string size_text(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
-
-/// Gathers one clause per broken rule.
-class Rules {
- public:
-  void require(bool holds, const std::string& rule) {
-    if (!holds) {
-      broken_ += (broken_.empty() ? "" : "; ") + rule;
-    }
-  }
-
-  void throw_if_broken(const std::string& title) const {
-    if (!broken_.empty()) {
-      throw std::invalid_argument(title + broken_);
-    }
-  }
-
- private:
-  std::string broken_;
-};
 
 }  // namespace
 
