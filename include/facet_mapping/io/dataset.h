@@ -14,8 +14,9 @@
 
 namespace facet_mapping {
 
-/// One instant of a dataset. Paths are empty where the folder has no such file. KITTI poses are in a
-/// map frame with z up (REP-103: the first camera, x forward, y left), Strecha poses as given.
+/// One instant of a dataset. Paths are empty where the folder has no such file. KITTI poses are in
+/// a map frame with z up (REP-103: the first left camera, x forward, y left), Strecha poses as
+/// given.
 struct DatasetFrame {
   double stamp = 0.0;  ///< seconds
   View view;           ///< left (or only) camera
@@ -33,19 +34,42 @@ struct Dataset {
   Eigen::Isometry3d left_from_velo = Eigen::Isometry3d::Identity();
   bool has_right = false;
   bool has_scans = false;
+  bool is_z_up = false;        ///< the poses' frame is a REP-103 map (all KITTI layouts)
   double depth_scale = 256.0;  ///< PNG units per metre
+  double epoch = 0.0;          ///< Unix time of stamp 0, seconds; 0 = the folder does not say
   double baseline_m() const { return -right_from_left.translation().x(); }
 };
 
-/// Finds out the layout (see README) and reads everything but the images. Throws
-/// std::runtime_error listing every missing or broken file with what was expected.
+/// Finds out the layout and reads everything but the images (of these only the first, for the
+/// size). Layouts, told apart by the file in front:
+///  - left/: left/ [right/ labels/ gt_label/ gt_depth/ velodyne/] calib.txt (K, T_right_left,
+///    T_left_velo, baseline_m), poses.txt (world_from_left, first camera), times.txt;
+///  - image_2/ (or image_0/): KITTI odometry, calib.txt (P0..P3, Tr), times.txt, poses.txt or
+///    ../../poses/NN.txt, [image_3/ velodyne/ labels/ gt_label/ gt_depth/];
+///  - image_02/ (or image_00/): KITTI raw drive, oxts/, [image_03/ velodyne_points/
+///  image_02/labels/ or
+///    labels/], calib_*.txt in the parent folder; poses from GPS/IMU by the Mercator projection;
+///  - cameras.json: Strecha, images/ [depth_gt/ labels_gt/ segmentation/]; the stamp is the view's
+///    index, depth in units of 0.5 mm.
+/// Left and right images, poses and times must be complete; segmentation, ground truth and scans
+/// may miss frames. Throws std::runtime_error listing every missing or broken file with what was
+/// expected.
 Dataset read_dataset(const std::string& folder);
+
+/// CV_8UC1 / CV_8UC3 (BGR) image. Both throw std::runtime_error on a missing, truncated or foreign
+/// file.
+cv::Mat read_gray(const std::string& path);
+cv::Mat read_color(const std::string& path);
+
+/// Class ids as CV_16UC1 from an 8-bit or 16-bit single-channel image; 255 of 8-bit images ("void"
+/// of Cityscapes, "none" of ground truth) becomes kUnlabelled. Throws std::runtime_error.
+cv::Mat read_labels(const std::string& path);
 
 /// Reads a depth PNG into CV_32F metres, 0 = none. Throws std::runtime_error.
 cv::Mat read_depth(const std::string& path, double scale);
 
-/// Reads float32 x y z intensity records, velodyne frame. Throws std::runtime_error on a file whose
-/// size is no multiple of 16 bytes.
+/// Reads float32 x y z intensity records, velodyne frame. Throws std::runtime_error on an empty
+/// file or one whose size is no multiple of 16 bytes.
 std::vector<Eigen::Vector4f> read_scan(const std::string& path);
 
 }  // namespace facet_mapping
