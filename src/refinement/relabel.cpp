@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "facet_mapping/labeling/facet_labeling.h"
 #include "refinement_run.h"
+
+#include "facet_mapping/labeling/facet_labeling.h"
 
 namespace facet_mapping {
 

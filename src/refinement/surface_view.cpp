@@ -73,8 +73,7 @@ SurfaceView make_surface_view(const TriangleMesh& mesh,
   surface.usable = mark_well_seen(mesh, normals, view, image, min_incidence_cos);
   clear_jumps(view.camera, image.depth, min_incidence_cos, &surface.usable);
   constexpr int kSplineReach = 2;
-  const cv::Mat kernel =
-      cv::Mat::ones(2 * kSplineReach + 1, 2 * kSplineReach + 1, CV_8UC1);
+  const cv::Mat kernel = cv::Mat::ones(2 * kSplineReach + 1, 2 * kSplineReach + 1, CV_8UC1);
   cv::erode(surface.usable, surface.sampled, kernel);
   surface.image = std::move(image);
   return surface;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine_scenes.h"
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
 #include "facet_mapping/geometry/manifold.h"
-#include "refine_scenes.h"
 
 namespace facet_mapping {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "support/meshes.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/refinement/step.h"
-#include "support/meshes.h"
 
 namespace facet_mapping {
 namespace {
