@@ -3,24 +3,43 @@
 #include "noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace facet_mapping {
 namespace {
 
-std::uint32_t lattice_hash(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t seed) {
-  std::uint32_t h = x * 0x8DA6B343U ^ y * 0xD8163841U ^ z * 0xCB1AB31FU ^ seed * 0x9E3779B1U;
+constexpr std::uint32_t kStepX = 0x8DA6B343U;
+constexpr std::uint32_t kStepY = 0xD8163841U;
+constexpr std::uint32_t kStepZ = 0xCB1AB31FU;
+
+/// Scrambles the sum of a cell's coordinates times the steps above.
+std::uint32_t scramble(std::uint32_t h) {
   h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
   h = (h ^ (h >> 12U)) * 0x297A2D39U;
   return h ^ (h >> 15U);
 }
 
-/// Dot product with one of the twelve edge directions of a cube, drawn by the hash.
+/// std::floor without a call into the library, for |x| < 2^31.
+std::int32_t floor_to_int(float x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
+}
+
+struct Gradient {
+  float x, y, z;
+};
+
+/// The middles of a cube's edges, four of them twice.
+constexpr std::array<Gradient, 16> kGradients{{{1, 1, 0},   {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0},
+                                               {1, 0, 1},   {-1, 0, 1},  {1, 0, -1}, {-1, 0, -1},
+                                               {0, 1, 1},   {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
+                                               {1, 1, 0},   {-1, 1, 0},  {0, -1, 1}, {0, -1, -1}}};
+
+/// Dot product with the gradient that the hash draws; a table, as branches on it mispredict.
 float corner(std::uint32_t hash, float x, float y, float z) {
-  const std::uint32_t h = hash >> 28U;
-  const float u = h < 8 ? x : y;
-  const float v = h < 4 ? y : (h == 12 || h == 14 ? x : z);
-  return ((h & 1U) != 0U ? -u : u) + ((h & 2U) != 0U ? -v : v);
+  const Gradient& g = kGradients[hash >> 28U];
+  return g.x * x + g.y * y + g.z * z;
 }
 
 float fade(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
@@ -36,32 +55,32 @@ float stripe_integral(float x, float period, float width) {
 }  // namespace
 
 float cell_hash(std::int32_t x, std::int32_t y, std::uint32_t seed) {
-  const std::uint32_t h =
-      lattice_hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0x68BC21EBU, seed);
+  const std::uint32_t h = scramble(static_cast<std::uint32_t>(x) * kStepX +
+                                   static_cast<std::uint32_t>(y) * kStepY + scramble(seed));
   return static_cast<float>(h >> 8U) * 0x1.0p-24F;
 }
 
 float gradient_noise(const Eigen::Vector3f& point, std::uint32_t seed) {
-  const float floor_x = std::floor(point.x());
-  const float floor_y = std::floor(point.y());
-  const float floor_z = std::floor(point.z());
-  const float x = point.x() - floor_x;
-  const float y = point.y() - floor_y;
-  const float z = point.z() - floor_z;
-  const auto ix = static_cast<std::uint32_t>(static_cast<std::int32_t>(floor_x));
-  const auto iy = static_cast<std::uint32_t>(static_cast<std::int32_t>(floor_y));
-  const auto iz = static_cast<std::uint32_t>(static_cast<std::int32_t>(floor_z));
-  const auto at = [&](std::uint32_t dx, std::uint32_t dy, std::uint32_t dz) {
-    return corner(lattice_hash(ix + dx, iy + dy, iz + dz, seed),
-                  x - static_cast<float>(dx),
-                  y - static_cast<float>(dy),
-                  z - static_cast<float>(dz));
+  const std::int32_t ix = floor_to_int(point.x());
+  const std::int32_t iy = floor_to_int(point.y());
+  const std::int32_t iz = floor_to_int(point.z());
+  const float x = point.x() - static_cast<float>(ix);
+  const float y = point.y() - static_cast<float>(iy);
+  const float z = point.z() - static_cast<float>(iz);
+  const std::uint32_t base = static_cast<std::uint32_t>(ix) * kStepX +
+                             static_cast<std::uint32_t>(iy) * kStepY +
+                             static_cast<std::uint32_t>(iz) * kStepZ + seed * 0x9E3779B1U;
+  const auto row = [&](std::uint32_t offset, float dy, float dz, float u) {
+    return mix(corner(scramble(base + offset), x, dy, dz),
+               corner(scramble(base + offset + kStepX), x - 1.0F, dy, dz),
+               u);
   };
   const float u = fade(x);
   const float v = fade(y);
-  const float near_z = mix(mix(at(0, 0, 0), at(1, 0, 0), u), mix(at(0, 1, 0), at(1, 1, 0), u), v);
-  const float far_z = mix(mix(at(0, 0, 1), at(1, 0, 1), u), mix(at(0, 1, 1), at(1, 1, 1), u), v);
-  return mix(near_z, far_z, fade(z));
+  const float low = mix(row(0U, y, z, u), row(kStepY, y - 1.0F, z, u), v);
+  const float high = mix(
+      row(kStepZ, y, z - 1.0F, u), row(kStepY + kStepZ, y - 1.0F, z - 1.0F, u), v);
+  return mix(low, high, fade(z));
 }
 
 float octave_noise(const Eigen::Vector3f& point,

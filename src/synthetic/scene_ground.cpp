@@ -14,7 +14,7 @@ using namespace cross_section;
 constexpr double kSegment = 10.0;  // metres of ground per part
 constexpr double kCell = 0.5;      // metres of a ground cell along the street
 constexpr double kBump = 0.05;     // metres, amplitude of the terrain
-constexpr double kEndGround = 9.0; // metres of ground beyond the road's end
+constexpr double kEndGround = 16.0;  // metres of ground beyond the road's end
 
 /// A piece of the street's ground between two values of s.
 struct Segment {
@@ -63,7 +63,9 @@ class GroundLayer {
       const double s = segment.s(row);
       const double t = side * stations[column];
       const bool last = column + 1 == static_cast<int>(stations.size());
-      const bool joins = column == 0 || (last && stations.back() < kBackdrop);
+      const bool inner = stations.back() < kBackdrop;
+      const bool seam = inner ? row == 0 || row == segment.cells : s > scene_.line->end() - 0.1;
+      const bool joins = column == 0 || (last && inner) || seam;  // others meet it there
       return at(s, t, top(t) + (joins ? 0.0 : bump_at(s, t, bump)));
     };
     const auto keep = [&](int row, int column) {

@@ -82,7 +82,7 @@ struct Crown {
       }
     }
     const Eigen::Vector3f p = (farthest * direction).cast<float>();
-    return farthest * (1.0 + 0.10 * octave_noise(p, 1.2F, 3, 0.01F, seed));
+    return farthest * (1.0 + 0.13 * octave_noise(p, 1.0F, 3, 0.01F, seed));
   }
 };
 
@@ -193,36 +193,50 @@ void add_hedge(const Scene& scene,
   }
 }
 
-void add_backdrop(const Scene& scene, std::uint32_t seed) {
+namespace {
+
+/// A standing sheet of leaves along a line of the ground plan, bumpy and of uneven height. Its
+/// outside is to the right of the way from `from` to `to`, given in street coordinates (s, t).
+void add_leaf_wall(const Scene& scene,
+                   const Eigen::Vector2d& from,
+                   const Eigen::Vector2d& to,
+                   std::uint32_t seed) {
   constexpr double kStep = 0.6;
-  constexpr double kPart = 24.0;
   constexpr int kUp = 12;
-  const Surface leaves{street_class::kVegetation, scene.shared.backdrop};
+  const Eigen::Vector2d along = (to - from).normalized();
+  const Eigen::Vector2d away(-along.y(), along.x());
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kStep)));
+  const auto vertex = [&](int row, int column) {
+    const Eigen::Vector2d foot = from + (to - from) * row / steps;
+    const Eigen::Vector3f crest(0.12F * static_cast<float>(foot.x()),
+                                0.12F * static_cast<float>(foot.y()), 7.5F);
+    const double height = 5.0 + 1.6 * octave_noise(crest, 1.0F, 3, 0.01F, seed);
+    const double h = -0.3 + height * column / kUp;
+    const Eigen::Vector3f p = Eigen::Vector3d(foot.x(), foot.y(), h).cast<float>();
+    const double bump = 0.9 * octave_noise(p, 0.45F, 3, 0.01F, seed + 17U);
+    const Eigen::Vector2d place = foot + (0.12 * h + bump) * away;
+    return SceneVertex{scene.line->to_map(place.x(), place.y(), h),
+                       Eigen::Vector3d(place.x(), place.y(), h).cast<float>()};
+  };
+  scene.builder->begin_part();
+  scene.builder->add_grid(
+      steps, kUp, vertex, {street_class::kVegetation, scene.shared.backdrop});
+}
+
+}  // namespace
+
+void add_backdrop(const Scene& scene, std::uint32_t seed) {
+  constexpr double kPart = 24.0;
+  const double far = cross_section::kBackdrop;
   const double begin = scene.line->begin();
-  const double end = scene.line->end() + 9.0;
+  const double end = scene.line->end() + 15.0;
   const int parts = std::max(1, static_cast<int>(std::ceil((end - begin) / kPart)));
-  const int rows = static_cast<int>(std::ceil((end - begin) / parts / kStep));
-  for (int part = 0; part < 2 * parts; ++part) {
-    const double side = part % 2 == 0 ? 1.0 : -1.0;
-    const double start = begin + (end - begin) * (part / 2) / parts;
-    const double length = (end - begin) / parts;
-    const auto vertex = [&](int row, int column) {
-      // Runs against the street on its right, so that the outside faces the road.
-      const double s = start + length * (side > 0.0 ? row : rows - row) / rows;
-      const auto along = static_cast<float>(s);
-      const double height = 5.0 + 1.6 * octave_noise({0.12F * along, 0.0F, 7.5F},
-                                                     1.0F, 3, 0.01F, seed);
-      const double h = -0.3 + height * column / kUp;
-      const double lean = 0.12 * h;
-      const Eigen::Vector3f p(along, static_cast<float>(20.0 * side), static_cast<float>(h));
-      const double bump = 0.9 * octave_noise(p, 0.45F, 3, 0.01F, seed + 17);
-      const double t = cross_section::kBackdrop + lean + bump;
-      return SceneVertex{scene.line->to_map(s, side * t, h),
-                         Eigen::Vector3d(s, side * t, h).cast<float>()};
-    };
-    scene.builder->begin_part();
-    scene.builder->add_grid(rows, kUp, vertex, leaves);
+  const auto s = [&](int part) { return begin + (end - begin) * part / parts; };
+  for (int part = 0; part < parts; ++part) {
+    add_leaf_wall(scene, {s(part), far}, {s(part + 1), far}, seed);
+    add_leaf_wall(scene, {s(part + 1), -far}, {s(part), -far}, seed);
   }
+  add_leaf_wall(scene, {end, far + 1.0}, {end, -far - 1.0}, seed);
 }
 
 }  // namespace facet_mapping

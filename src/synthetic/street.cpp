@@ -71,7 +71,7 @@ void add_closing_buildings(const Scene& scene, Random* random) {
 
 void add_cars(const Scene& scene, double density, Random* random) {
   for (const int side : {1, -1}) {
-    double s = 4.0 + random->uniform(0.0, 3.0);
+    double s = 8.0 + random->uniform(0.0, 3.0);
     while (s < scene.line->end() - 3.0) {
       if (random->chance(density)) {
         const double t = side * (kParking + random->uniform(-0.12, 0.12));

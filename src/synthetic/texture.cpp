@@ -26,7 +26,7 @@ Eigen::Vector3f bark(const Material& m, const Eigen::Vector3f& p, float footprin
 Eigen::Vector3f foliage(const Material& m, const Eigen::Vector3f& p, float footprint) {
   const float clumps = octave_noise(p, 0.6F, 2, footprint, m.seed);
   const float leaves = octave_noise(p, 2.5F, 5, footprint, m.seed + 31U);
-  const float dark = std::clamp(0.40F - 0.30F * clumps - 0.55F * leaves, 0.0F, 1.0F);
+  const float dark = std::clamp(0.42F - 0.35F * clumps - 0.70F * leaves, 0.0F, 1.0F);
   return blend(m.color, m.accent, dark);
 }
 

@@ -26,6 +26,9 @@ float marking(const Material& m, const Eigen::Vector3f& p, float footprint) {
   const float side = m.size.x() - 2.15F;
   const float edge = interval_coverage(std::abs(p.y()), side - 0.05F, side + 0.05F, footprint) *
                      stripe_coverage(p.x(), 1.5F, 0.75F, footprint);
+  if (middle + edge <= 0.0F) {
+    return 0.0F;
+  }
   const float wear = 0.85F + 0.35F * octave_noise(p, 3.0F, 4, footprint, m.seed + 5U);
   return std::clamp((middle + edge) * wear, 0.0F, 1.0F);
 }

@@ -88,8 +88,10 @@ std::array<Patch, 3> fittings(const Eigen::Vector3f& p, float footprint) {
   const bool front = p.x() > 0.0F;
   const float end = interval_coverage(std::abs(p.x()), 1.86F, 3.0F, footprint);
   const float lamp_height = front ? interval_coverage(p.z(), 0.60F, 0.75F, footprint)
-                                  : interval_coverage(p.z(), 0.66F, 0.92F, footprint);
-  const float lamp = end * lamp_height * interval_coverage(std::abs(p.y()), 0.50F, 0.80F, footprint);
+                                  : interval_coverage(p.z(), 0.70F, 0.90F, footprint);
+  const float inner = front ? 0.50F : 0.62F;
+  const float lamp =
+      end * lamp_height * interval_coverage(std::abs(p.y()), inner, 0.84F, footprint);
   const float plate = end * interval_coverage(p.z(), 0.42F, 0.53F, footprint) *
                       interval_coverage(p.y(), -0.26F, 0.26F, footprint);
   const float text = plate * stripe_coverage(p.y() + 0.26F, 0.075F, 0.04F, footprint) *
