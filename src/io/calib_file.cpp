@@ -72,7 +72,7 @@ std::optional<Eigen::Isometry3d> CalibFile::transform(const std::string& key) co
   if (!matrix) {
     return std::nullopt;
   }
-  const auto rigid = rigid_from(matrix->leftCols<3>(), matrix->col(3));
+  auto rigid = rigid_from(matrix->leftCols<3>(), matrix->col(3));
   if (!rigid) {
     problems_.add(path_ + ": '" + key + "' is no rigid transform");
   }
@@ -86,7 +86,7 @@ std::optional<Eigen::Isometry3d> CalibFile::transform(const std::string& rotatio
   if (!linear || !shift) {
     return std::nullopt;
   }
-  const auto rigid = rigid_from(*linear, Eigen::Map<const Eigen::Vector3d>(shift->data()));
+  auto rigid = rigid_from(*linear, Eigen::Map<const Eigen::Vector3d>(shift->data()));
   if (!rigid) {
     problems_.add(path_ + ": '" + rotation + "' is no rotation");
   }

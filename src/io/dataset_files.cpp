@@ -96,7 +96,8 @@ std::vector<std::string> frame_names(const std::string& image_folder,
 
 std::string find_image(const std::string& folder, const std::string& name) {
   for (const char* extension : kImageExtensions) {
-    const std::string path = folder + "/" + name + extension;
+    std::string path = folder;
+    path.append("/").append(name).append(extension);
     if (!folder.empty() && !found(path).empty()) {
       return path;
     }
@@ -117,7 +118,7 @@ void find_files(const FrameFolders& folders,
 
 std::string first_folder(const std::string& parent, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
-    const std::string path = (fs::path(parent) / name).string();
+    std::string path = (fs::path(parent) / name).string();
     std::error_code error;
     if (fs::is_directory(path, error)) {
       return path;

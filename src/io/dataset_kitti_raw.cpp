@@ -130,11 +130,7 @@ Dataset read_kitti_raw(const std::string& folder, Problems& problems) {
   const FrameFolders folders = folders_in(folder, pair);
   const auto names = frame_names(folders.left, times.size(), times_path, problems);
   find_files(folders, names, dataset, problems);
-  std::vector<std::string> packets;
-  for (const std::string& name : names) {
-    packets.push_back(folder + "/oxts/data/" + name + ".txt");
-  }
-  const auto world_from_imu = read_oxts(packets, problems);
+  const auto world_from_imu = read_oxts(folder + "/oxts/data", names, problems);
   const Calibration calibration = read_calibration(folder, pair, dataset.has_right, problems);
   apply(calibration, calib_path(folder, "calib_cam_to_cam.txt"), world_from_imu, dataset, problems);
   set_stamps(times, times_path, dataset, problems);

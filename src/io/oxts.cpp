@@ -3,6 +3,7 @@
 #include "oxts.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "text_tables.h"
 
@@ -27,11 +28,13 @@ Eigen::Isometry3d world_from_imu(const std::vector<double>& packet, double scale
 
 }  // namespace
 
-std::vector<Eigen::Isometry3d> read_oxts(const std::vector<std::string>& paths,
+std::vector<Eigen::Isometry3d> read_oxts(const std::string& folder,
+                                         const std::vector<std::string>& names,
                                          Problems& problems) {
   std::vector<Eigen::Isometry3d> poses;
   double scale = 0.0;
-  for (const std::string& path : paths) {
+  for (const std::string& name : names) {
+    const std::string path = (std::filesystem::path(folder) / (name + ".txt")).string();
     const auto rows = read_rows(path, kPacketSize, problems);
     if (rows.empty()) {
       poses.push_back(Eigen::Isometry3d::Identity());

@@ -14,6 +14,10 @@ namespace {
 
 using RowMatrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
+std::string path_and_line(const std::string& path, int line) {
+  return path + " line " + std::to_string(line);
+}
+
 struct Row {
   int line = 0;
   std::vector<double> numbers;  // empty if the row is wrong
@@ -37,7 +41,7 @@ std::vector<Row> read_numbered_rows(const std::string& path,
     const std::optional<std::vector<double>> numbers = parse_numbers(text);
     const std::string fault = row_fault(numbers, columns);
     if (!fault.empty()) {
-      problems.add(path + " line " + std::to_string(line) + " " + fault);
+      problems.add(path_and_line(path, line) + " " + fault);
     }
     rows.push_back({line, fault.empty() ? *numbers : std::vector<double>()});
   }
@@ -97,7 +101,7 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& path, Problems& pro
       const Eigen::Map<const RowMatrix34> matrix(row.numbers.data());
       pose = rigid_from(matrix.leftCols<3>(), matrix.col(3));
       if (!pose) {
-        problems.add(path + " line " + std::to_string(row.line) +
+        problems.add(path_and_line(path, row.line) +
                      " is no rigid transform (its 3x3 part is no rotation)");
       }
     }
@@ -111,8 +115,7 @@ std::vector<double> read_times(const std::string& path, Problems& problems) {
   for (const Row& row : read_numbered_rows(path, 1, problems)) {
     const double time = row.numbers.empty() ? NAN : row.numbers.front();
     if (!times.empty() && time <= times.back()) {
-      problems.add(path + " line " + std::to_string(row.line) +
-                   " is not later than the line above");
+      problems.add(path_and_line(path, row.line) + " is not later than the line above");
     }
     times.push_back(time);
   }
