@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shared_parameters.h"
+
+namespace facet_mapping {
+namespace {
+
+void add_carving(ParameterTable* table, CarvingConfig* c) {
+  table->add("carving/free_space_threshold",
+             &c->free_space_threshold,
+             "rays",
+             "least free-space evidence of a free cell",
+             kNotNegative);
+  table->add("carving/behind_distance_m",
+             &c->behind_distance_m,
+             "m",
+             "how far behind a point its class is evidence",
+             kNotNegative);
+  table->add("carving/steiner_spacing_m",
+             &c->steiner_spacing_m,
+             "m",
+             "spacing of the extra vertices that bound cells; 0: none",
+             kNotNegative);
+  table->add("carving/steiner_margin_m",
+             &c->steiner_margin_m,
+             "m",
+             "how far beyond the points the extra vertices reach",
+             kNotNegative);
+  table->add("carving/min_point_spacing_m",
+             &c->min_point_spacing_m,
+             "m",
+             "a point nearer to a vertex than this joins its rays",
+             kNotNegative);
+}
+
+void add_map(ParameterTable* table, MapConfig* c) {
+  table->add_choice<DynamicPolicy>(
+      "dynamic_classes",
+      &c->dynamic,
+      {{"keep", DynamicPolicy::kKeep},
+       {"carve", DynamicPolicy::kCarve},
+       {"drop", DynamicPolicy::kDrop}},
+      "points of `dynamic` classes: part of the map, carve only, or ignored");
+  table->add("min_range_m", &c->min_range_m, "m", "nearer points are dropped", kNotNegative);
+  table->add("max_range_m", &c->max_range_m, "m", "farther points are dropped", kPositive);
+  table->add("keyframe_translation_m",
+             &c->keyframe_translation_m,
+             "m",
+             "a frame is integrated after this much motion of its sensor ...",
+             kNotNegative);
+  table->add("keyframe_rotation_deg",
+             &c->keyframe_rotation_deg,
+             "deg",
+             "... or this much rotation",
+             {0.0, 180.0});
+  table->add_check([c]() -> std::string {
+    return c->min_range_m < c->max_range_m ? "" : "'min_range_m' must be below 'max_range_m'";
+  });
+}
+
+}  // namespace
+
+ParameterTable parameter_table(MapperNodeConfig* config) {
+  ParameterTable table;
+  table.add("point_topics",
+            &config->point_topics,
+            "clouds to map: sensor_msgs/PointCloud2 with x y z [label] [sigma]");
+  add_label_file(&table, &config->label_file);
+  add_pose(&table, &config->pose);
+  table.add("queue_size",
+            &config->queue_size,
+            "frames",
+            "frames that may wait for the map; further ones are dropped and counted",
+            {1, 100000});
+  table.add("update_period_s",
+            &config->update_period_s,
+            "s",
+            "least wall time between two updates of the surface",
+            kNotNegative);
+  add_map(&table, &config->map);
+  add_carving(&table, &config->map.carving);
+  add_output(&table, &config->output);
+  table.add_check([config]() -> std::string {
+    return config->point_topics.empty() ? "'point_topics' is empty; name at least one topic" : "";
+  });
+  return table;
+}
+
+}  // namespace facet_mapping
