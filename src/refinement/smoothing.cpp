@@ -60,24 +60,36 @@ VectorField UmbrellaOperator::apply_transposed(const VectorField& y) const {
   return result;
 }
 
-VectorField UmbrellaOperator::without_curvature(const TriangleMesh& mesh) const {
-  const VectorField umbrella = apply(mesh.vertices);
-  const VectorField normals = vertex_normals(mesh);
-  VectorField result(umbrella.size(), Eigen::Vector3d::Zero());
-  tbb::parallel_for(std::size_t{0}, umbrella.size(), [&](std::size_t k) {
-    if (border_[k] != 0) {
-      return;
-    }
+std::vector<double> UmbrellaOperator::average(const std::vector<double>& values) const {
+  std::vector<double> result(values.size(), 0.0);
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t k) {
     double sum = 0.0;
     int count = 0;
     for (const std::uint32_t* l = neighbours_.begin(k); l != neighbours_.end(k); ++l) {
       if (border_[*l] == 0) {
-        sum += umbrella[*l].dot(normals[*l]);
+        sum += values[*l];
         ++count;
       }
     }
-    result[k] = umbrella[k] - (count > 0 ? sum / count : 0.0) * normals[k];
+    result[k] = count > 0 && border_[k] == 0 ? sum / count : 0.0;
   });
+  return result;
+}
+
+VectorField UmbrellaOperator::shared_curvature(const TriangleMesh& mesh) const {
+  constexpr int kRings = 3;
+  VectorField result = apply(mesh.vertices);
+  const VectorField normals = vertex_normals(mesh);
+  std::vector<double> along(result.size());
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    along[k] = result[k].dot(normals[k]);
+  }
+  for (int ring = 0; ring < kRings; ++ring) {
+    along = average(along);
+  }
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    result[k] = along[k] * normals[k];
+  }
   return result;
 }
 
@@ -88,9 +100,10 @@ SmoothingTerm::SmoothingTerm(const TriangleMesh& start,
     : umbrella_(umbrella),
       weights_(weights),
       config_(config),
-      target_(umbrella.without_curvature(start)) {
+      curvature_(umbrella.shared_curvature(start)),
+      target_(umbrella.apply(start.vertices)) {
   for (std::size_t k = 0; k < target_.size(); ++k) {
-    target_[k] += start.vertices[k];
+    target_[k] += start.vertices[k] - curvature_[k];
   }
 }
 
@@ -108,7 +121,7 @@ double SmoothingTerm::energy(const VectorField& x) const {
   for (std::size_t k = 0; k < x.size(); ++k) {
     if (!umbrella_.is_border(k)) {
       sum += weights_[k] * (config_.umbrella * (x[k] - target_[k]).squaredNorm() +
-                            config_.thin_plate * bending[k].squaredNorm());
+                            config_.thin_plate * (bending[k] - curvature_[k]).squaredNorm());
     }
   }
   return 0.5 * sum;
@@ -117,7 +130,7 @@ double SmoothingTerm::energy(const VectorField& x) const {
 VectorField SmoothingTerm::gradient(const VectorField& x) const {
   VectorField bending = umbrella_.apply(x);
   for (std::size_t k = 0; k < x.size(); ++k) {
-    bending[k] *= weights_[k] * config_.thin_plate;
+    bending[k] = weights_[k] * config_.thin_plate * (bending[k] - curvature_[k]);
   }
   VectorField result = umbrella_.apply_transposed(bending);
   for (std::size_t k = 0; k < x.size(); ++k) {

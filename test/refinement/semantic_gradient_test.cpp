@@ -108,11 +108,11 @@ cv::Mat disc(const PinholeCamera& camera, double x, double y, double radius) {
   return mask;
 }
 
-/// A ball (class 1) before a wall (class 0), whose masks are shifted by about two pixels.
+/// A ball (class 1) before a wall (class 0), whose masks are shifted and too large by some pixels.
 Problem ball_before_wall(int subdivisions) {
   Problem problem;
   const TriangleMesh ball = test::make_sphere(0.6, subdivisions);
-  TriangleMesh wall = test::make_grid_plane(12, 12, 0.5);
+  TriangleMesh wall = test::make_grid_plane(12, 12, 0.9);
   for (Eigen::Vector3d& v : wall.vertices) {
     v.z() -= 1.5;
   }
@@ -123,7 +123,7 @@ Problem ball_before_wall(int subdivisions) {
   for (const double x : {-0.8, 0.7}) {
     const View view = test::look_at(camera, {x, 0.3, 3.0}, {0.0, 0.0, 0.0});
     const double radius = 160.0 * 0.6 / std::sqrt(view.center().squaredNorm() - 0.36);
-    problem.views.push_back({view, disc(camera, 79.5 + 1.4, 59.5 - 1.2, radius + 0.8)});
+    problem.views.push_back({view, disc(camera, 79.5 + 1.0, 59.5 - 0.8, radius + 3.0)});
   }
   return problem;
 }

@@ -54,7 +54,7 @@ TEST(Smoothing, DoesNotShrinkASphere) {
       config.thin_plate = thin_plate ? 0.2 : 0.0;
       const double radius = mean_radius(smooth(sphere, config, 20));
       std::printf("%d facets, thin plate %d: radius %.5f\n", int(sphere.triangles.size()), thin_plate, radius);
-      EXPECT_NEAR(radius, 1.0, 0.02);
+      EXPECT_NEAR(radius, 1.0, 0.005);
     }
   }
 }

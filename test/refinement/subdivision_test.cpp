@@ -57,15 +57,19 @@ TEST(Subdivision, KeepsAClosedManifoldAndItsShape) {
 
 TEST(Subdivision, LeavesNoFacetAboveTheLimit) {
   const TriangleMesh sphere = test::make_sphere(1.0, 2);
-  const std::vector<double> pixels = one_sided_pixels(sphere);
+  const auto pixels_by_area = [](const TriangleMesh& mesh) {
+    std::vector<double> pixels;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      pixels.push_back(1e4 * facet_cross(mesh, f).norm());
+    }
+    return pixels;
+  };
   constexpr double kLimit = 15.0;
-  const TriangleMesh finer = subdivide(sphere, pixels, kLimit);
-  const std::vector<double> after = one_sided_pixels(finer);
-  const double whole = *std::max_element(pixels.begin(), pixels.end());
-  EXPECT_GT(whole, 10.0 * kLimit);
-  for (std::size_t f = 0; f < after.size(); ++f) {
-    EXPECT_LE(after[f], 1.5 * kLimit);
-  }
+  const std::vector<double> before = pixels_by_area(sphere);
+  EXPECT_GT(*std::max_element(before.begin(), before.end()), 10.0 * kLimit);
+  const std::vector<double> after = pixels_by_area(subdivide(sphere, before, kLimit));
+  EXPECT_LE(*std::max_element(after.begin(), after.end()), kLimit * (1.0 + 1e-9));
+  EXPECT_GT(*std::max_element(after.begin(), after.end()), 0.2 * kLimit);
 }
 
 TEST(Subdivision, CarriesTheAttributes) {

@@ -26,16 +26,19 @@ class UmbrellaOperator {
   /// U^T y.
   VectorField apply_transposed(const VectorField& y) const;
 
-  /// The umbrella vectors with the part taken out that the neighbours along the normal share: on a
-  /// sphere or a pole all vertices would move inwards by the same amount, which tells of the
-  /// shape's curvature and not of noise. What is left are bumps and the unevenness of the
-  /// tessellation.
-  VectorField without_curvature(const TriangleMesh& mesh) const;
+  /// The part of the umbrella vectors that the surroundings share: their component along the normal,
+  /// averaged over about three rings, times the normal. On a sphere or a pole all vertices would
+  /// move inwards by the same amount under the umbrella operator, which tells of the shape's
+  /// curvature and not of noise.
+  VectorField shared_curvature(const TriangleMesh& mesh) const;
 
   bool is_border(std::size_t vertex) const { return border_[vertex] != 0; }
   const Adjacency& neighbours() const { return neighbours_; }
 
  private:
+  /// Mean of the inner neighbours' values; 0 at the border.
+  std::vector<double> average(const std::vector<double>& values) const;
+
   Adjacency neighbours_;
   std::vector<std::uint8_t> border_;
 };
@@ -46,10 +49,11 @@ struct SmoothingConfig {
 };
 
 /// The smoothness energy around one shape, quadratic in the positions x:
-///   E = 1/2 sum_k w_k (umbrella |x_k - t_k|^2 + thin_plate |(U x)_k|^2)
-/// with targets t = start + without_curvature. The weights w (per square metre) say how much the
-/// images would tell about vertex k if its texture were good, so that the parameters are pure
-/// numbers: smoothing rules where texture is poor and yields where it is rich.
+///   E = 1/2 sum_k w_k (umbrella |x_k - t_k|^2 + thin_plate |(U x)_k - b_k|^2)
+/// with the shared curvature b of the start and targets t = start + U start - b. Without b both
+/// terms would shrink whatever is curved. The weights w (per square metre) say how much the images
+/// would tell about vertex k if its texture were good, so that the parameters are pure numbers:
+/// smoothing rules where texture is poor and yields where it is rich.
 class SmoothingTerm {
  public:
   SmoothingTerm(const TriangleMesh& start,
@@ -69,7 +73,8 @@ class SmoothingTerm {
   const UmbrellaOperator& umbrella_;
   const std::vector<double>& weights_;
   SmoothingConfig config_;
-  VectorField target_;
+  VectorField curvature_;  // b
+  VectorField target_;     // t
 };
 
 }  // namespace facet_mapping
