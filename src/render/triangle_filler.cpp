@@ -63,8 +63,8 @@ InverseDepth inverse_depth(const PinholeCamera& camera,
   return depth;
 }
 
-TriangleFiller::TriangleFiller(const Screen& screen, const Band& band)
-    : bits_(screen.bits()), band_(band) {}
+TriangleFiller::TriangleFiller(const Screen& screen, Band band)
+    : bits_(screen.bits()), band_(std::move(band)) {}
 
 TriangleFiller::Box TriangleFiller::box(const ScreenVertex& a,
                                         const ScreenVertex& b,
