@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <facet_mapping/MeshStats.h>
-
 #include "facet_mapping/ros/cloud_conversions.h"
 #include "facet_mapping/ros/mesh_stats.h"
 #include "facet_mapping/ros/node_setup.h"
@@ -19,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kQueueSize = 100;  // of each topic
 constexpr std::uint32_t kStatsQueueSize = 10;
+constexpr double kStatsPeriodS = 1.0;
 
 constexpr char kHowToGetAMesh[] =
     "points with a pose must come first; see the topics under point_topics (`rostopic hz`) and the "
@@ -43,6 +42,8 @@ MapperNode::MapperNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
                  diagnostics_.complain("map update failed", error);
                }}) {
   stats_pub_ = private_nh.advertise<MeshStats>("stats", kStatsQueueSize);
+  stats_timer_ = nh.createWallTimer(ros::WallDuration(kStatsPeriodS),
+                                    [this](const ros::WallTimerEvent&) { publish_stats(); });
   reset_server_ = private_nh.advertiseService("reset", &MapperNode::reset, this);
   diagnostics_.on_publish([this] {
     diagnostics_.set("frames waiting for their transform", static_cast<double>(transforms_.size()));
@@ -121,7 +122,11 @@ void MapperNode::enqueue(const std::string& topic,
 }
 
 void MapperNode::forget_everything() {
-  worker_.reset([this] { publisher_.reset(ros::Time::now()); });
+  worker_.reset([this] {
+    publisher_.reset(ros::Time::now());
+    const std::lock_guard<std::mutex> lock(update_mutex_);
+    last_update_ = {};
+  });
 }
 
 bool MapperNode::reset(Reset::Request& /*request*/, Reset::Response& response) {
@@ -164,26 +169,36 @@ void MapperNode::publish_update(MapUpdate update) {
   diagnostics_.count("updates");
   diagnostics_.set("seconds of the last update", update.seconds);
   diagnostics_.set("facets", static_cast<double>(state->mesh.triangles.size()));
-  publish_stats(update);
+  update.surface = {};
+  const std::lock_guard<std::mutex> lock(update_mutex_);
+  last_update_ = std::move(update);
 }
 
-void MapperNode::publish_stats(const MapUpdate& update) {
+void MapperNode::publish_stats() {
   if (stats_pub_.getNumSubscribers() == 0) {
     return;
   }
-  MeshStats stats;
   const MeshStatePtr state = publisher_.current();
-  fill_mesh_stats(state->mesh, &stats);
-  stats.header.frame_id = config_.pose.map_frame;
-  stats.header.stamp = state->stamp;
-  stats.map_id = publisher_.map_id();
-  stats.sequence = publisher_.sequence();
-  stats.cells = update.stats.cells;
-  stats.rays = update.stats.rays;
-  stats.keyframes = static_cast<std::uint32_t>(update.keyframes);
-  stats.pending = static_cast<std::uint32_t>(worker_.size());
-  stats.update_seconds = update.seconds;
-  stats_pub_.publish(stats);
+  if (state != measured_) {
+    stats_ = MeshStats();
+    measured_ = state;
+    if (state) {
+      fill_mesh_stats(state->mesh, &stats_);
+      stats_.header.stamp = state->stamp;
+    }
+  }
+  stats_.header.frame_id = config_.pose.map_frame;
+  stats_.map_id = publisher_.map_id();
+  stats_.sequence = publisher_.sequence();
+  stats_.pending = static_cast<std::uint32_t>(worker_.size() + transforms_.size());
+  {
+    const std::lock_guard<std::mutex> lock(update_mutex_);
+    stats_.cells = last_update_.stats.cells;
+    stats_.rays = last_update_.stats.rays;
+    stats_.keyframes = static_cast<std::uint32_t>(last_update_.keyframes);
+    stats_.update_seconds = last_update_.seconds;
+  }
+  stats_pub_.publish(stats_);
 }
 
 }  // namespace facet_mapping

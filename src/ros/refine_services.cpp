@@ -56,8 +56,7 @@ ros::AdvertiseServiceOptions on_queue(
     const std::string& name,
     ros::CallbackQueue* queue,
     boost::function<bool(typename Service::Request&, typename Service::Response&)> callback) {
-  auto options = ros::AdvertiseServiceOptions::create<Service>(name, callback, nullptr, queue);
-  return options;
+  return ros::AdvertiseServiceOptions::create<Service>(name, callback, nullptr, queue);
 }
 
 }  // namespace
@@ -165,6 +164,11 @@ RefineServices::Task RefineServices::prepare(const Refine::Request& request) con
                                 " MiB, more than memory_budget: keep fewer keyframes "
                                 "(max_keyframes, keyframe_translation_m) or use smaller images");
   }
+  if (task.dry_run) {  // no iteration: only the energies are measured
+    task.config.levels = 1;
+    task.config.iterations = 0;
+    task.config.relabel = false;
+  }
   return task;
 }
 
@@ -184,8 +188,6 @@ bool RefineServices::report_progress(const Task& task,
     *why_stopped = "cancelled";
   } else if (task.time_budget_s > 0.0 && message.seconds >= task.time_budget_s) {
     *why_stopped = "time budget used up";
-  } else if (task.dry_run) {
-    *why_stopped = "dry run";
   }
   return why_stopped->empty();
 }

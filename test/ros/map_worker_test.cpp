@@ -82,7 +82,11 @@ TEST_F(MapWorkerTest, FramesBecomeAClosedLabelledSurface) {
 TEST_F(MapWorkerTest, FullQueueRefuses) {
   const auto worker = make_worker(2, 1000.0);
   worker->push(wall_seen_from(0.0), "a");
-  wait_for_update(1);  // from now on the worker pauses
+  wait_for_update(1);
+  while (worker->size() > 0) {
+    std::this_thread::yield();
+  }
+  // From now on the worker pauses.
   EXPECT_TRUE(worker->push(wall_seen_from(1.0), "a"));
   EXPECT_TRUE(worker->push(wall_seen_from(2.0), "a"));
   EXPECT_FALSE(worker->push(wall_seen_from(3.0), "a"));

@@ -4,9 +4,11 @@
 // mapper: labelled points of any sensors -> the labelled surface of the drive.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include <facet_mapping/MeshStats.h>
 #include <facet_mapping/Reset.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -43,10 +45,10 @@ class MapperNode {
                const Eigen::Isometry3d& map_from_sensor);
   void forget_everything();
   bool reset(Reset::Request& request, Reset::Response& response);
+  void publish_stats();
   // In the worker's thread:
   void note_frame(const FrameReport& report);
   void publish_update(MapUpdate update);
-  void publish_stats(const MapUpdate& update);
 
   Config config_;
   LabelSet labels_;
@@ -58,6 +60,11 @@ class MapperNode {
   MeshPublisher publisher_;
   MeshServices services_;
   ros::Publisher stats_pub_;
+  ros::WallTimer stats_timer_;
+  MeshStatePtr measured_;  // the state that stats_ describes
+  MeshStats stats_;
+  std::mutex update_mutex_;
+  MapUpdate last_update_;  // without its surface
   ros::ServiceServer reset_server_;
   std::vector<ros::Subscriber> subscribers_;
   MapWorker worker_;
