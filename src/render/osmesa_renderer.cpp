@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "osmesa_renderer.h"
+#include "render/osmesa_renderer.h"
 
 #include <array>
 #include <cstdint>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "osmesa_functions.h"
-#include "osmesa_program.h"
-#include "render_input.h"
+#include "render/osmesa_functions.h"
+#include "render/osmesa_program.h"
+#include "render/render_input.h"
 
 namespace facet_mapping {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "triangle_filler.h"
+#include "render/triangle_filler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "screen.h"
+#include "render/screen.h"
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
