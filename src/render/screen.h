@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From camera space to fixed-point screen positions. Positions are snapped to 2^-bits pixels so
-// that edge functions are exact integers in doubles: shared edges then leave neither holes nor
+// that edge functions are exact integers: shared edges then leave neither holes nor
 // double hits. Depth is not snapped, it comes from the facet's plane.
 #pragma once
 
@@ -44,8 +44,11 @@ class Screen {
   int bits() const { return bits_; }
 
  private:
+  using Distances = std::array<double, kClipPlanes>;  // times metres; negative is outside
+
   void project(ScreenVertex* vertex) const;
-  double distance(std::size_t plane, const Eigen::Vector3d& in_cam) const;
+  std::int32_t snapped(double pixel) const;
+  Distances distances(const Eigen::Vector3d& in_cam) const;
   ClippedPolygon clip_at(std::size_t plane, const ClippedPolygon& polygon) const;
   Eigen::Vector3d crossing(std::size_t plane,
                            const Eigen::Vector3d& inside,

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "software_renderer.h"
+#include "render/software_renderer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "render_input.h"
-#include "triangle_filler.h"
+#include "render/render_input.h"
+#include "render/triangle_filler.h"
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -17,43 +17,42 @@ namespace {
 
 constexpr std::size_t kVertexGrain = 16384;
 
-InverseDepth facet_depth(const PinholeCamera& camera,
-                         const ScreenVertex& a,
-                         const ScreenVertex& b,
-                         const ScreenVertex& c) {
-  return inverse_depth(camera, a.in_cam, b.in_cam, c.in_cam);
+using Corners = std::array<const ScreenVertex*, 3>;
+
+InverseDepth facet_depth(const PinholeCamera& camera, const Corners& v) {
+  return inverse_depth(camera, v[0]->in_cam, v[1]->in_cam, v[2]->in_cam);
 }
 
 void fill_whole(TriangleFiller* filler,
                 const Screen& screen,
-                const std::array<const ScreenVertex*, 3>& v,
+                const Corners& v,
                 std::int32_t facet) {
-  if (filler->misses(*v[0], *v[1], *v[2])) {
-    return;
-  }
-  InverseDepth depth = facet_depth(screen.camera(), *v[0], *v[1], *v[2]);
-  depth.low = std::min({v[0]->inverse_z, v[1]->inverse_z, v[2]->inverse_z});
-  depth.high = std::max({v[0]->inverse_z, v[1]->inverse_z, v[2]->inverse_z});
-  filler->fill(*v[0], *v[1], *v[2], depth, facet);
+  const auto plane = [&] {
+    InverseDepth depth = facet_depth(screen.camera(), v);
+    depth.low = std::min({v[0]->inverse_z, v[1]->inverse_z, v[2]->inverse_z});
+    depth.high = std::max({v[0]->inverse_z, v[1]->inverse_z, v[2]->inverse_z});
+    return depth;
+  };
+  filler->fill(*v[0], *v[1], *v[2], plane, facet);
 }
 
 void fill_clipped(TriangleFiller* filler,
                   const Screen& screen,
-                  const std::array<const ScreenVertex*, 3>& v,
+                  const Corners& v,
                   std::int32_t facet) {
   const ClippedPolygon polygon = screen.clip(*v[0], *v[1], *v[2]);
-  if (polygon.size < 3) {
-    return;
-  }
-  InverseDepth depth = facet_depth(screen.camera(), *v[0], *v[1], *v[2]);
-  depth.low = polygon.corners[0].inverse_z;
-  depth.high = depth.low;
-  for (std::size_t k = 1; k < polygon.size; ++k) {
-    depth.low = std::min(depth.low, polygon.corners[k].inverse_z);
-    depth.high = std::max(depth.high, polygon.corners[k].inverse_z);
-  }
+  const auto plane = [&] {
+    InverseDepth depth = facet_depth(screen.camera(), v);
+    depth.low = polygon.corners[0].inverse_z;
+    depth.high = depth.low;
+    for (std::size_t k = 1; k < polygon.size; ++k) {
+      depth.low = std::min(depth.low, polygon.corners[k].inverse_z);
+      depth.high = std::max(depth.high, polygon.corners[k].inverse_z);
+    }
+    return depth;
+  };
   for (std::size_t k = 2; k < polygon.size; ++k) {
-    filler->fill(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], depth, facet);
+    filler->fill(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], plane, facet);
   }
 }
 
@@ -64,7 +63,7 @@ void draw(const std::vector<Triangle>& triangles,
   TriangleFiller filler(screen, band);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const Triangle& t = triangles[f];
-    const std::array<const ScreenVertex*, 3> v{&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]};
+    const Corners v{&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]};
     if ((v[0]->outside | v[1]->outside | v[2]->outside) == 0) {
       fill_whole(&filler, screen, v, static_cast<std::int32_t>(f));
     } else if ((v[0]->outside & v[1]->outside & v[2]->outside) == 0) {

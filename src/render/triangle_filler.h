@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "screen.h"
+#include "render/screen.h"
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
@@ -32,16 +32,20 @@ struct Band {
 
 class TriangleFiller {
  public:
-  TriangleFiller(const Screen& screen, const Band& band) : screen_(screen), band_(band) {}
+  TriangleFiller(const Screen& screen, Band band);
 
-  /// True if the box of the three positions holds no pixel centre of the band.
-  bool misses(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
-
+  /// `plane` is asked for the depth only if the box of the corners holds a pixel centre.
+  template <typename Plane>
   void fill(const ScreenVertex& a,
             const ScreenVertex& b,
             const ScreenVertex& c,
-            const InverseDepth& depth,
-            std::int32_t facet);
+            const Plane& plane,
+            std::int32_t facet) {
+    const Box bounds = box(a, b, c);
+    if (!bounds.empty()) {
+      fill_box(bounds, a, b, c, plane(), facet);
+    }
+  }
 
  private:
   struct Box {
@@ -49,17 +53,31 @@ class TriangleFiller {
     bool empty() const { return x_begin > x_last || y_begin > y_last; }
   };
 
-  /// step * x + row * y + constant >= 0 for pixels (x, y) on the inner side; exact integers.
+  /// step * x + row * y + constant >= 0 for pixels (x, y) on the inner side.
   struct Edge {
-    double step, row, constant, inverse_step;
+    std::int64_t step, row, constant;
+    double inverse_step;
     void narrow(int y, int* begin, int* last) const;
   };
 
   Box box(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
   Edge edge(const ScreenVertex& from, const ScreenVertex& to) const;
-  void fill_row(int y, int begin, int last, const InverseDepth& depth, std::int32_t facet);
+  void fill_box(const Box& bounds,
+                const ScreenVertex& a,
+                const ScreenVertex& b,
+                const ScreenVertex& c,
+                const InverseDepth& depth,
+                std::int32_t facet);
+  void fill_small(const Box& bounds,
+                  const std::array<Edge, 3>& edges,
+                  const InverseDepth& depth,
+                  std::int32_t facet);
+  void fill_spans(const Box& bounds,
+                  const std::array<Edge, 3>& edges,
+                  const InverseDepth& depth,
+                  std::int32_t facet);
 
-  const Screen& screen_;
+  int bits_;
   Band band_;
 };
 

@@ -4,9 +4,11 @@
 // Litvinov & Lhuillier 2014 and Romanoni & Matteucci 2015).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
@@ -14,13 +16,28 @@
 
 namespace facet_mapping {
 
-struct CarvingConfig {
-  double free_space_threshold = 1.0;  ///< least free-space evidence of a free cell, in rays
-  double behind_distance_m = 0.5;     ///< how far behind a point its label is evidence, metres
-  double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
-  double steiner_margin_m = 12.0;     ///< how far beyond the points the extra vertices reach
-  double min_point_spacing_m = 0.05;  ///< a point nearer to a vertex than this joins its rays
+/// How cells are called free before the manifold free space grows over them.
+enum class Extraction {
+  kCount,     ///< free-space evidence above a threshold and above every class's (the paper)
+  kGraphCut,  ///< minimum cut between free space and matter with a surface quality term (Labatut
+              ///< 2009)
 };
+
+struct CarvingConfig {
+  Extraction extraction = Extraction::kGraphCut;  ///< how cells are called free
+  double surface_quality_weight = 1.0;  ///< graph cut: cost of a badly shaped facet, in rays
+  double evidence_cap = 32.0;           ///< graph cut: most evidence that a cell can have, in rays
+  double free_space_threshold = 1.0;    ///< least free-space evidence of a free cell, in rays
+  double behind_distance_m = 0.5;       ///< how far behind a point its label is evidence, metres
+  double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
+  double steiner_reach_m = 52.0;      ///< how far around a sensor extra vertices are laid, metres
+  double steiner_clearance_m = 0.5;   ///< extra vertices keep this far from points, metres
+  double max_facet_edge_m = 2.5;      ///< facets with a longer edge carry no class, metres
+  double min_point_spacing_m = 0.05;  ///< a point nearer to a vertex than this joins it, metres
+};
+
+/// Throws std::invalid_argument naming the first value out of range.
+void validate(const CarvingConfig& config);
 
 /// One frame's points in the map frame, all seen from `center`.
 struct CarvingFrame {
@@ -47,6 +64,15 @@ struct CarvingStats {
   std::size_t reached_cells = 0;  ///< of those, cells inside the manifold free space
 };
 
+/// One cell's evidence, keyed by its vertices' coordinates, so that two runs can be compared.
+struct CellEvidence {
+  std::array<Eigen::Vector3d, 4> vertices;              ///< in lexicographic order
+  std::uint32_t free = 0;                               ///< free-space evidence, 1/256 rays
+  std::vector<std::pair<Label, std::uint32_t>> labels;  ///< class, evidence in 1/256 rays
+
+  bool operator==(const CellEvidence& other) const;
+};
+
 class SpaceCarver {
  public:
   explicit SpaceCarver(const CarvingConfig& config);
@@ -62,7 +88,9 @@ class SpaceCarver {
   CarvedSurface extract_surface();
 
   CarvingStats stats() const;
-  void clear();
+
+  /// The evidence of all finite cells, sorted by their vertices: for tests and inspection.
+  std::vector<CellEvidence> evidence() const;
 
  private:
   class Impl;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "facet_mapping/carving/space_carver.h"
+#include "facet_mapping/geometry/camera.h"
 #include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/points/labeled_point.h"
 
@@ -16,9 +17,8 @@ namespace facet_mapping {
 
 /// What rays to points of `dynamic` classes do.
 enum class DynamicPolicy {
-  kDrop,   ///< nothing: the point is ignored
-  kCarve,  ///< carve free space up to the point, add no vertex and no label
-  kKeep,   ///< treat them as everything else (parked cars are part of the map)
+  kDrop,  ///< nothing: the point is ignored
+  kKeep,  ///< what everything else does (parked cars are part of the map)
 };
 
 struct MapConfig {
@@ -63,6 +63,7 @@ class LabeledMap {
 
  private:
   bool is_keyframe(const PointFrame& frame, const std::string& sensor);
+  bool admit(const LabeledPoint& point, FrameReport* report, CarvingFrame::Ray* ray) const;
 
   LabelSet labels_;
   MapConfig config_;

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of a mesh that a request names: a box, classes.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <facet_mapping/BoxRegion.h>
+
+#include "facet_mapping/geometry/mesh.h"
+
+namespace facet_mapping {
+
+/// All zero: no region was given.
+bool is_everywhere(const BoxRegion& region);
+
+/// Throws std::invalid_argument if a bound is not finite or min lies above max.
+void validate(const BoxRegion& region);
+
+/// The facets whose centroid lies inside the box (unless it is_everywhere) and whose class is in
+/// `classes` (unless empty). `region_from_map` leads into the box's axes.
+TriangleMesh filter_mesh(const TriangleMesh& mesh,
+                         const BoxRegion& region,
+                         const Eigen::Isometry3d& region_from_map,
+                         const std::vector<Label>& classes);
+
+}  // namespace facet_mapping

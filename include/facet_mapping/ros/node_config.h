@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parameters of the nodes, and the tables that read, print and document them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "facet_mapping/mapping/labeled_map.h"
+#include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/refinement/refiner.h"
+#include "facet_mapping/ros/parameters.h"
+
+namespace facet_mapping {
+
+enum class ImageTransport { kRaw, kCompressed };
+
+/// How a node gets the segmentation of its images.
+struct SegmentationInput {
+  std::string label_file = "cityscapes";  ///< path, or the name of a shipped list
+  bool use_segmentation = true;           ///< false: geometry only
+  ImageTransport transport = ImageTransport::kRaw;
+  bool resize = false;     ///< accept label images of another size
+  double timeout_s = 2.0;  ///< how long an image waits for its segmentation, wall time
+  double cache_s = 5.0;    ///< how long incomplete frames are kept, wall time
+};
+
+/// What happens when stamps run backwards (a bag played in a loop).
+enum class TimeJumpPolicy { kReset, kIgnore };
+
+/// How a node finds the pose of its sensor.
+struct PoseInput {
+  std::string map_frame = "map";
+  double tf_timeout_s = 5.0;  ///< how long a frame waits for its transform, wall time
+  int tf_queue_size = 200;    ///< frames that may wait at once
+  TimeJumpPolicy on_time_jump = TimeJumpPolicy::kReset;
+};
+
+/// How a node hands out its mesh.
+struct MeshOutput {
+  double chunk_size_m = 8.0;
+  int marker_max_triangles = 300000;
+};
+
+struct StereoPointsNodeConfig {
+  SegmentationInput segmentation;
+  int queue_size = 200;  ///< pairs that may wait for the matcher
+  StereoConfig stereo;
+};
+
+struct MapperNodeConfig {
+  std::string label_file = "cityscapes";
+  std::vector<std::string> point_topics{"points"};
+  PoseInput pose;
+  MeshOutput output;
+  int queue_size = 500;          ///< frames that may wait for the map
+  double update_period_s = 1.0;  ///< least time between two updates, wall time
+  MapConfig map;
+};
+
+struct RefinerNodeConfig {
+  SegmentationInput segmentation;
+  PoseInput pose;
+  MeshOutput output;
+  double keyframe_translation_m = 0.5;
+  double keyframe_rotation_deg = 10.0;
+  int max_keyframes = 200;
+  int max_keyframe_mib = 2048;
+  RefinementConfig refinement;
+};
+
+/// The tables point into the struct, which must outlive them.
+ParameterTable parameter_table(StereoPointsNodeConfig* config);
+ParameterTable parameter_table(MapperNodeConfig* config);
+ParameterTable parameter_table(RefinerNodeConfig* config);
+
+}  // namespace facet_mapping

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "carving/surface.h"
+
+#include <array>
+#include <unordered_map>
+
+namespace facet_mapping::carving {
+namespace {
+
+using Corners = std::array<VertexHandle, 3>;
+
+/// True if points stand close together at the corners: something was seen there.
+bool is_observed(const Corners& corners, double max_edge_m) {
+  for (int k = 0; k < 3; ++k) {
+    const double edge = CGAL::squared_distance(corners[k]->point(), corners[(k + 1) % 3]->point());
+    if (corners[k]->info().steiner || edge > max_edge_m * max_edge_m) {
+      return false;
+    }
+  }
+  return true;
+}
+
+LabelEvidence facet_evidence(CellHandle matter, const Corners& corners) {
+  if (!matter->info().labels.empty()) {
+    return matter->info().labels;
+  }
+  LabelEvidence evidence;
+  for (const VertexHandle corner : corners) {
+    evidence.add(corner->info().labels);
+  }
+  return evidence;
+}
+
+class SurfaceBuilder {
+ public:
+  explicit SurfaceBuilder(double max_edge_m) : max_edge_m_(max_edge_m) {}
+
+  void add_facet(CellHandle free, int facet) {
+    // CGAL: the facet (i+1, i+2, i+3) of an odd i runs clockwise seen from outside the cell, which
+    // is counter-clockwise seen from inside, from free space.
+    Corners corners{free->vertex((facet + 1) & 3),
+                    free->vertex((facet + 2) & 3),
+                    free->vertex((facet + 3) & 3)};
+    if (facet % 2 == 0) {
+      std::swap(corners[0], corners[1]);
+    }
+    surface_.mesh.triangles.push_back({index(corners[0]), index(corners[1]), index(corners[2])});
+    const LabelEvidence evidence = is_observed(corners, max_edge_m_)
+                                       ? facet_evidence(free->neighbor(facet), corners)
+                                       : LabelEvidence{};
+    surface_.mesh.labels.push_back(evidence.best());
+    surface_.mesh.confidence.push_back(evidence.margin());
+  }
+
+  CarvedSurface take() { return std::move(surface_); }
+
+ private:
+  std::uint32_t index(VertexHandle vertex) {
+    const auto [at, is_new] = index_of_id_.try_emplace(
+        vertex->info().id, static_cast<std::uint32_t>(surface_.mesh.vertices.size()));
+    if (is_new) {
+      const Point& p = vertex->point();
+      surface_.mesh.vertices.emplace_back(p.x(), p.y(), p.z());
+      surface_.vertex_ids.push_back(vertex->info().id);
+    }
+    return at->second;
+  }
+
+  double max_edge_m_;
+  CarvedSurface surface_;
+  std::unordered_map<std::uint32_t, std::uint32_t> index_of_id_;
+};
+
+}  // namespace
+
+CarvedSurface make_surface(const Triangulation& triangulation, double max_edge_m) {
+  SurfaceBuilder builder(max_edge_m);
+  for (const CellHandle cell : triangulation.finite_cell_handles()) {
+    if (!cell->info().in_free_set) {
+      continue;
+    }
+    for (int k = 0; k < 4; ++k) {
+      if (!cell->neighbor(k)->info().in_free_set) {
+        builder.add_facet(cell, k);
+      }
+    }
+  }
+  return builder.take();
+}
+
+}  // namespace facet_mapping::carving

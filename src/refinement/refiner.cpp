@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/refinement/refiner.h"
+
+#include "check_input.h"
+#include "refinement_run.h"
+
+namespace facet_mapping {
+
+RefinementResult refine(const TriangleMesh& mesh,
+                        const std::vector<LabeledView>& views,
+                        const LabelSet& labels,
+                        const RefinementConfig& config,
+                        const ProgressCallback& progress) {
+  check_config(config);
+  check_views(views);
+  validate(mesh);
+  check_mesh(mesh);
+  return RefinementRun(mesh, views, labels, config, progress).run();
+}
+
+}  // namespace facet_mapping

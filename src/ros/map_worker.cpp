@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/ros/map_worker.h"
+
+#include <exception>
+#include <utility>
+
+namespace facet_mapping {
+
+using Clock = std::chrono::steady_clock;
+
+MapWorker::MapWorker(LabelSet labels,
+                     const MapConfig& config,
+                     std::size_t queue_size,
+                     double update_period_s,
+                     Callbacks callbacks)
+    : queue_size_(queue_size),
+      update_period_(update_period_s),
+      callbacks_(std::move(callbacks)),
+      map_(std::move(labels), config),
+      next_update_(Clock::now()),
+      thread_([this] { run(); }) {}
+
+MapWorker::~MapWorker() {
+  stop();
+}
+
+bool MapWorker::push(PointFrame frame, std::string sensor) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (queue_.size() >= queue_size_ || stopping_) {
+      return false;
+    }
+    queue_.push_back({std::move(frame), std::move(sensor)});
+  }
+  wake_.notify_one();
+  return true;
+}
+
+void MapWorker::reset(const std::function<void()>& on_reset) {
+  const std::lock_guard<std::mutex> publish_lock(publish_mutex_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    queue_.clear();
+    ++epoch_;
+  }
+  on_reset();
+}
+
+std::size_t MapWorker::size() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return queue_.size() + in_work_;
+}
+
+void MapWorker::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+bool MapWorker::wait_for_frames(std::deque<Item>* frames, std::uint64_t* epoch) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+  wake_.wait_until(lock, next_update_, [this] { return stopping_; });
+  frames->swap(queue_);
+  in_work_ = frames->size();
+  *epoch = epoch_;
+  return !stopping_;
+}
+
+void MapWorker::run() {
+  std::deque<Item> frames;
+  std::uint64_t epoch = 0;
+  while (wait_for_frames(&frames, &epoch)) {
+    try {
+      integrate(frames, epoch);
+    } catch (const std::exception& e) {
+      callbacks_.on_error(e.what());
+    }
+    frames.clear();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      in_work_ = 0;
+    }
+    next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
+  }
+}
+
+bool MapWorker::add_frames(const std::deque<Item>& frames) {
+  for (const Item& item : frames) {
+    try {
+      callbacks_.on_frame(map_.add(item.frame, item.sensor));
+    } catch (const std::invalid_argument& e) {
+      callbacks_.on_error(e.what());
+    }
+  }
+  return map_.pending() > 0;
+}
+
+void MapWorker::integrate(const std::deque<Item>& frames, std::uint64_t epoch) {
+  if (epoch != map_epoch_) {
+    map_.reset();
+    map_epoch_ = epoch;
+  }
+  const auto start = Clock::now();
+  if (!add_frames(frames) || !map_.update()) {
+    return;
+  }
+  MapUpdate update{map_.surface(), map_.stats(), map_.keyframes(), map_.last_stamp(), 0.0};
+  update.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::lock_guard<std::mutex> publish_lock(publish_mutex_);
+  bool is_current = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_current = epoch == epoch_ && !stopping_;
+  }
+  if (is_current) {
+    callbacks_.on_update(std::move(update));
+  }
+}
+
+}  // namespace facet_mapping

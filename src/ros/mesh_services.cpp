@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/ros/mesh_services.h"
+
+#include <stdexcept>
+
+#include <tf2_eigen/tf2_eigen.h>
+
+#include "facet_mapping/io/ply.h"
+#include "facet_mapping/ros/file_paths.h"
+#include "facet_mapping/ros/mesh_filter.h"
+#include "facet_mapping/ros/service_status.h"
+
+namespace facet_mapping {
+namespace {
+
+std::string facets_text(std::size_t facets) {
+  return std::to_string(facets) + " facets";
+}
+
+std::vector<Label> to_labels(const std::vector<std::uint16_t>& classes) {
+  return {classes.begin(), classes.end()};
+}
+
+/// Writes the file; what the disk refuses is an IO_ERROR.
+void write_mesh(const std::string& path, const MeshFile& file) {
+  try {
+    write_ply(path, file);
+  } catch (const std::runtime_error& e) {
+    throw ServiceError(Status::IO_ERROR, e.what());
+  }
+}
+
+}  // namespace
+
+MeshServices::MeshServices(ros::NodeHandle private_nh,
+                           MeshPublisher* publisher,
+                           const tf2_ros::Buffer* buffer,
+                           const std::string& how_to_get_one)
+    : publisher_(publisher), buffer_(buffer), how_to_get_one_(how_to_get_one) {
+  get_mesh_server_ = private_nh.advertiseService("get_mesh", &MeshServices::get_mesh, this);
+  save_mesh_server_ = private_nh.advertiseService("save_mesh", &MeshServices::save_mesh, this);
+}
+
+MeshStatePtr MeshServices::require_mesh() const {
+  MeshStatePtr state = publisher_->current();
+  if (!state || state->mesh.empty()) {
+    throw ServiceError(Status::NOT_READY, "there is no mesh yet: " + how_to_get_one_);
+  }
+  return state;
+}
+
+Eigen::Isometry3d MeshServices::region_from_map(const BoxRegion& region) const {
+  const std::string& map_frame = publisher_->frame_id();
+  if (is_everywhere(region) || region.frame_id.empty() || region.frame_id == map_frame) {
+    return Eigen::Isometry3d::Identity();
+  }
+  try {
+    return tf2::transformToEigen(
+        buffer_->lookupTransform(region.frame_id, map_frame, ros::Time(0)));
+  } catch (const tf2::TransformException& e) {
+    throw std::invalid_argument("region: tf knows no transform from '" + map_frame + "' to '" +
+                                region.frame_id + "': " + e.what());
+  }
+}
+
+bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& response) {
+  response.status = answer([&] {
+    validate(request.region);
+    const MeshStatePtr state = require_mesh();
+    if (is_everywhere(request.region) && request.classes.empty()) {
+      response.mesh = publisher_->full_message();
+      return facets_text(state->mesh.triangles.size());
+    }
+    const TriangleMesh part = filter_mesh(
+        state->mesh, request.region, region_from_map(request.region), to_labels(request.classes));
+    response.mesh = publisher_->detached_message(part, state->stamp);
+    return facets_text(part.triangles.size()) + " of " +
+           std::to_string(state->mesh.triangles.size());
+  });
+  return true;
+}
+
+bool MeshServices::save_mesh(SaveMesh::Request& request, SaveMesh::Response& response) {
+  response.status = answer([&] {
+    const std::string path = mesh_path(request.path);
+    const MeshStatePtr state = require_mesh();
+    const TriangleMesh part = filter_mesh(
+        state->mesh, BoxRegion(), Eigen::Isometry3d::Identity(), to_labels(request.classes));
+    if (part.empty()) {
+      throw std::invalid_argument("no facet has one of the classes asked for; nothing was written");
+    }
+    write_mesh(path, {part, publisher_->labels(), publisher_->frame_id()});
+    response.path = path;
+    response.facets = part.triangles.size();
+    return facets_text(part.triangles.size()) + " written to " + path;
+  });
+  return true;
+}
+
+}  // namespace facet_mapping
