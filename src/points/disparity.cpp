@@ -29,10 +29,13 @@ cv::Mat match(const cv::Mat& first,
               int block_size,
               int uniqueness_percent) {
   // The matcher gives nothing in its first num_disparities columns, so these are added here.
+  // ISOLATED: the images may be parts of larger ones.
   cv::Mat wide_first;
   cv::Mat wide_second;
-  cv::copyMakeBorder(first, wide_first, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(second, wide_second, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(
+      first, wide_first, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  cv::copyMakeBorder(
+      second, wide_second, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   const int area = block_size * block_size;
   const auto matcher = cv::StereoSGBM::create(0,
                                               num_disparities,

@@ -21,8 +21,8 @@ void check_stereo_config(const StereoConfig& config) {
   rules.require(config.num_disparities > 0 && config.num_disparities % 16 == 0 &&
                     config.num_disparities <= 1024,
                 "num_disparities must be a multiple of 16 up to 1024");
-  rules.require(config.block_size > 0 && config.block_size % 2 == 1 && config.block_size <= 21,
-                "block_size must be odd and at most 21");
+  rules.require(config.block_size > 0 && config.block_size % 2 == 1 && config.block_size <= 11,
+                "block_size must be odd and at most 11");
   rules.require(config.uniqueness_percent >= 0 && config.uniqueness_percent <= 100,
                 "uniqueness_percent must be from 0 to 100");
   rules.require(config.left_right_tolerance_px >= 0.0 && config.left_right_tolerance_px <= 100.0,

@@ -74,6 +74,27 @@ std::vector<float> refine_all(const cv::Mat& left,
   return refined;
 }
 
+std::vector<LabeledPoint> triangulate(const std::vector<cv::Point>& pixels,
+                                      const std::vector<float>& disparities,
+                                      const cv::Mat& labels,
+                                      const PinholeCamera& camera,
+                                      const Triangulation& triangulation) {
+  std::vector<LabeledPoint> points;
+  points.reserve(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double depth = triangulation.depth(disparities[i]);
+    if (!triangulation.in_range(depth)) {
+      continue;  // NaN too: the refinement found no likeness
+    }
+    LabeledPoint point;
+    point.position = (depth * camera.ray({pixels[i].x, pixels[i].y})).cast<float>();
+    point.label = labels.empty() ? kUnlabelled : labels.at<Label>(pixels[i]);
+    point.sigma = static_cast<float>(triangulation.sigma(depth));
+    points.push_back(point);
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<LabeledPoint> stereo_points(const cv::Mat& left,
@@ -83,34 +104,25 @@ std::vector<LabeledPoint> stereo_points(const cv::Mat& left,
                                         double baseline_m,
                                         const StereoConfig& config,
                                         StereoReport* report) {
+  detail::check_stereo_config(config);
   detail::check_stereo_pair(left, right);
-  if (!left.empty()) {
-    detail::check_stereo_geometry(left, labels, camera, baseline_m);
-  }
-  const cv::Mat disparity = stereo_disparity(left, right, config);
-  std::vector<LabeledPoint> points;
-  if (!left.empty()) {
-    const Triangulation triangulation(camera, baseline_m, config);
-    const std::vector<cv::Point> pixels =
-        detail::thin_pixels(find_usable(disparity, labels, triangulation, config),
-                            detail::gradient_magnitude(left),
-                            {config.cell_px, config.flat_cell_px, config.min_gradient});
-    const std::vector<float> refined = refine_all(left, right, disparity, pixels);
-    points.reserve(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const double depth = triangulation.depth(refined[i]);
-      if (!triangulation.in_range(depth)) {
-        continue;
-      }
-      LabeledPoint point;
-      point.position = (depth * camera.ray({pixels[i].x, pixels[i].y})).cast<float>();
-      point.label = labels.empty() ? kUnlabelled : labels.at<Label>(pixels[i]);
-      point.sigma = static_cast<float>(triangulation.sigma(depth));
-      points.push_back(point);
-    }
-  }
   if (report != nullptr) {
-    report->matched_pixels = static_cast<std::size_t>(cv::countNonZero(disparity > 0.0F));
+    *report = {};
+  }
+  if (left.empty()) {
+    return {};
+  }
+  detail::check_stereo_geometry(left, labels, camera, baseline_m);
+  const cv::Mat disparity = stereo_disparity(left, right, config);
+  const Triangulation triangulation(camera, baseline_m, config);
+  const std::vector<cv::Point> pixels =
+      detail::thin_pixels(find_usable(disparity, labels, triangulation, config),
+                          detail::gradient_magnitude(left),
+                          {config.cell_px, config.flat_cell_px, config.min_gradient});
+  std::vector<LabeledPoint> points = triangulate(
+      pixels, refine_all(left, right, disparity, pixels), labels, camera, triangulation);
+  if (report != nullptr) {
+    report->matched_pixels = static_cast<std::size_t>(cv::countNonZero(disparity > 0.0));
     report->points = points.size();
   }
   return points;

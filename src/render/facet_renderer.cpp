@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "osmesa_renderer.h"
-#include "software_renderer.h"
+#include "render/osmesa_renderer.h"
+#include "render/software_renderer.h"
 
 namespace facet_mapping {
 

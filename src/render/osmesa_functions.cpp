@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "osmesa_functions.h"
+#include "render/osmesa_functions.h"
 
 #include <stdexcept>
 #include <string>

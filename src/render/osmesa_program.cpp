@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "osmesa_program.h"
+#include "render/osmesa_program.h"
 
 #include <array>
 #include <stdexcept>

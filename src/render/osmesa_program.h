@@ -3,7 +3,7 @@
 // The shader program that writes facet index + 1 and camera z.
 #pragma once
 
-#include "osmesa_functions.h"
+#include "render/osmesa_functions.h"
 
 #include "facet_mapping/geometry/camera.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "osmesa_renderer.h"
+#include "render/osmesa_renderer.h"
 
 #include <array>
 #include <cstdint>
@@ -9,14 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "osmesa_functions.h"
-#include "osmesa_program.h"
-#include "render_input.h"
+#include "render/osmesa_functions.h"
+#include "render/osmesa_program.h"
+#include "render/render_input.h"
 
 namespace facet_mapping {
 namespace {
 
-constexpr int kDummySize = 16;  // OSMesa insists on a colour buffer although nothing draws into it
+// OSMesa insists on a colour buffer although nothing draws into it.
+constexpr int kDummySize = 16;
+constexpr std::size_t kDummyBytes = 16 * 16 * 4;
 
 // Mesa's context and dispatch state is partly global, so one render at a time.
 std::mutex& osmesa_mutex() {
@@ -59,7 +61,7 @@ class OsmesaRenderer::Context {
   FacetImage read_back(const cv::Size& size) const;
 
   OSMesaContext context_ = nullptr;
-  std::array<std::uint8_t, 4 * kDummySize * kDummySize> dummy_{};
+  std::array<std::uint8_t, kDummyBytes> dummy_{};
   OsmesaFunctions gl_;
   OsmesaProgram program_;
   std::array<GLuint, 3> renderbuffers_{};  // facet ids, camera z, depth

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "render_input.h"
+#include "render/render_input.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "screen.h"
+#include "render/screen.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "software_renderer.h"
+#include "render/software_renderer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "render_input.h"
-#include "triangle_filler.h"
+#include "render/render_input.h"
+#include "render/triangle_filler.h"
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "screen.h"
+#include "render/screen.h"
 
 #include "facet_mapping/render/facet_renderer.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "triangle_filler.h"
+#include "render/triangle_filler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +63,8 @@ InverseDepth inverse_depth(const PinholeCamera& camera,
   return depth;
 }
 
-TriangleFiller::TriangleFiller(const Screen& screen, const Band& band)
-    : bits_(screen.bits()), band_(band) {}
+TriangleFiller::TriangleFiller(const Screen& screen, Band band)
+    : bits_(screen.bits()), band_(std::move(band)) {}
 
 TriangleFiller::Box TriangleFiller::box(const ScreenVertex& a,
                                         const ScreenVertex& b,

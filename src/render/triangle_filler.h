@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "screen.h"
+#include "render/screen.h"
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
@@ -32,7 +32,7 @@ struct Band {
 
 class TriangleFiller {
  public:
-  TriangleFiller(const Screen& screen, const Band& band);
+  TriangleFiller(const Screen& screen, Band band);
 
   /// `plane` is asked for the depth only if the box of the corners holds a pixel centre.
   template <typename Plane>

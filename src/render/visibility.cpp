@@ -19,6 +19,9 @@ VisibilityTest::VisibilityTest(const View& view, const cv::Mat& depth, double re
     throw std::invalid_argument(
         "visibility: give a valid camera and a CV_32FC1 depth image of its size");
   }
+  if (!is_rigid(view.world_from_cam)) {
+    throw std::invalid_argument("visibility: the pose of the view is not a rigid transform");
+  }
   if (!std::isfinite(relative_tolerance) || relative_tolerance < 0.0) {
     throw std::invalid_argument("visibility: the depth tolerance must be zero or positive");
   }

@@ -49,7 +49,7 @@ void MapWorker::reset(const std::function<void()>& on_reset) {
 
 std::size_t MapWorker::size() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return queue_.size();
+  return queue_.size() + in_work_;
 }
 
 void MapWorker::stop() {
@@ -68,6 +68,7 @@ bool MapWorker::wait_for_frames(std::deque<Item>* frames, std::uint64_t* epoch) 
   wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
   wake_.wait_until(lock, next_update_, [this] { return stopping_; });
   frames->swap(queue_);
+  in_work_ = frames->size();
   *epoch = epoch_;
   return !stopping_;
 }
@@ -82,6 +83,10 @@ void MapWorker::run() {
       callbacks_.on_error(e.what());
     }
     frames.clear();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      in_work_ = 0;
+    }
     next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
   }
 }

@@ -6,6 +6,21 @@ namespace facet_mapping {
 namespace {
 
 void add_carving(ParameterTable* table, CarvingConfig* c) {
+  table->add_choice<Extraction>(
+      "carving/extraction",
+      &c->extraction,
+      {{"graph_cut", Extraction::kGraphCut}, {"count", Extraction::kCount}},
+      "how cells are called free: minimum cut with a surface quality term, or the paper's count");
+  table->add("carving/surface_quality_weight",
+             &c->surface_quality_weight,
+             "rays",
+             "graph_cut: cost of a badly shaped facet",
+             kNotNegative);
+  table->add("carving/evidence_cap",
+             &c->evidence_cap,
+             "rays",
+             "graph_cut: most evidence that a cell can have",
+             kPositive);
   table->add("carving/free_space_threshold",
              &c->free_space_threshold,
              "rays",
@@ -21,26 +36,42 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
              "m",
              "spacing of the extra vertices that bound cells; 0: none",
              kNotNegative);
-  table->add("carving/steiner_margin_m",
-             &c->steiner_margin_m,
+  table->add("carving/steiner_reach_m",
+             &c->steiner_reach_m,
              "m",
-             "how far beyond the points the extra vertices reach",
+             "how far around a sensor extra vertices are laid",
              kNotNegative);
+  table->add("carving/steiner_clearance_m",
+             &c->steiner_clearance_m,
+             "m",
+             "extra vertices keep this far from points",
+             kNotNegative);
+  table->add("carving/max_facet_edge_m",
+             &c->max_facet_edge_m,
+             "m",
+             "facets with a longer edge carry no class",
+             kPositive);
   table->add("carving/min_point_spacing_m",
              &c->min_point_spacing_m,
              "m",
-             "a point nearer to a vertex than this joins its rays",
+             "a point nearer to a vertex than this joins it",
              kNotNegative);
+  table->add_check([c]() -> std::string {
+    try {
+      validate(*c);
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+    return "";
+  });
 }
 
 void add_map(ParameterTable* table, MapConfig* c) {
   table->add_choice<DynamicPolicy>(
       "dynamic_classes",
       &c->dynamic,
-      {{"keep", DynamicPolicy::kKeep},
-       {"carve", DynamicPolicy::kCarve},
-       {"drop", DynamicPolicy::kDrop}},
-      "points of `dynamic` classes: part of the map, carve only, or ignored");
+      {{"keep", DynamicPolicy::kKeep}, {"drop", DynamicPolicy::kDrop}},
+      "points of `dynamic` classes (cars, persons): part of the map, or ignored");
   table->add("min_range_m", &c->min_range_m, "m", "nearer points are dropped", kNotNegative);
   table->add("max_range_m", &c->max_range_m, "m", "farther points are dropped", kPositive);
   table->add("keyframe_translation_m",

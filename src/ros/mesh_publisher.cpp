@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <ros/single_subscriber_publisher.h>
+
 #include "facet_mapping/ros/cloud_conversions.h"
 #include "facet_mapping/ros/mesh_conversions.h"
 

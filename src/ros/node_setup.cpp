@@ -30,7 +30,7 @@ LabelSet set_up_node(const ParameterTable& table,
     throw ConfigError(problems);
   }
   ROS_INFO("%s: parameters:%s", private_nh.getNamespace().c_str(), table.to_text().c_str());
-#ifndef NDEBUG
+#ifndef __OPTIMIZE__
   ROS_WARN("built without optimisation: much slower than -DCMAKE_BUILD_TYPE=Release");
 #endif
   return labels;

@@ -32,17 +32,17 @@ void add_details(ParameterTable* table, RefinementConfig* c) {
              &c->ncc_window_px,
              "px",
              "side of the correlation window, odd",
-             {3, 101});
+             {3, 31});
   table->add("refinement/semantic_window_px",
              &c->semantic_window_px,
              "px",
              "side of the semantic window, odd",
-             {3, 101});
+             {3, 63});
   table->add("refinement/min_incidence_cos",
              &c->min_incidence_cos,
              "",
              "pixels that see the surface at a flatter angle do not count",
-             kUnit);
+             {0.01, 1.0});
   table->add("refinement/pairs_per_view",
              &c->pairs_per_view,
              "",
@@ -57,7 +57,7 @@ void add_details(ParameterTable* table, RefinementConfig* c) {
              &c->subdivide_px,
              "px",
              "facets covering more pixels than this in their best view are split",
-             kPositive);
+             {1.0, 1e12});
   table->add_check([c]() -> std::string {
     return c->ncc_window_px % 2 == 1 && c->semantic_window_px % 2 == 1
                ? ""

@@ -205,9 +205,17 @@ void StereoPointsNode::match(const Pair& pair) {
 void StereoPointsNode::refresh_diagnostics() {
   const StampSync::Counts& counts = sync_.counts();
   diagnostics_.set("frames waiting for a part", static_cast<double>(sync_.waiting()));
-  diagnostics_.set("frames dropped without partner", static_cast<double>(counts.unpaired));
   diagnostics_.set("messages too late for their frame", static_cast<double>(counts.late));
   diagnostics_.set("pairs waiting for the matcher", static_cast<double>(jobs_.size()));
+  if (counts.unpaired > unpaired_) {
+    diagnostics_.complain("unpaired images",
+                          std::to_string(counts.unpaired - unpaired_) +
+                              " stamps had no image on both '" + topics_[kLeft] + "' and '" +
+                              topics_[kRight] +
+                              "' and were dropped: the cameras must be triggered together and "
+                              "carry exactly the same stamp");
+    unpaired_ = counts.unpaired;
+  }
 }
 
 }  // namespace facet_mapping

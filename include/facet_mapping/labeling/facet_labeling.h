@@ -1,9 +1,19 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Markov random field over facets (Romanoni et al. 2017, Sec. 3.1).
+//
+// The Markov random field over facets (Romanoni et al. 2017, Sec. 3.1): the energy
+//   sum_f [-log P_data(l, f) - normal_weight * log P_norm(l, f)] + sum_(f~g) w_fg [l_f != l_g]
+// is minimised by alpha-expansion. P_data is max(beta, mean over the three vertices of the share of
+// the images seeing the vertex that say l); P_norm falls with the angle to the class's mean normal;
+// w_fg = log(smooth_equal / smooth_different) * (length of the common edge / mean length).
+//
+// Where no image sees a facet there is no data term, only the orientation prior, the neighbours and
+// a mild preference for the mesh's own label. Parts of the mesh that neither an image nor a label
+// of their own reaches over any chain of neighbours stay unlabelled.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
@@ -13,25 +23,37 @@
 namespace facet_mapping {
 
 struct LabelingConfig {
-  double beta = 0.1;              ///< floor of the data probability
-  double normal_weight = 1.5;     ///< exponent lambda_n of the orientation prior
-  double smooth_equal = 0.8;      ///< pairwise probability of equal labels
-  double smooth_different = 0.2;  ///< pairwise probability of different labels
+  double beta = 0.1;           ///< floor of the data probability
+  double normal_weight = 1.5;  ///< exponent lambda_n of the orientation prior
+  double normal_floor = 0.3;   ///< floor of the orientation probability, so that images outvote it
+  double min_normal_sigma_deg = 10.0;  ///< least angular deviation that a class is credited with
+  int min_normal_facets = 20;          ///< classes with fewer facets have no orientation prior
+  double smooth_equal = 0.8;           ///< pairwise probability of equal labels
+  double smooth_different = 0.2;       ///< pairwise probability of different labels
+  double own_label_weight =
+      0.7;  ///< cost (nats) of dropping the mesh's own label where no image sees
   double depth_tolerance = 0.02;  ///< relative depth slack of the visibility test
   int max_sweeps = 10;            ///< alpha-expansion sweeps over all classes
+  std::vector<Label> excluded;    ///< never given to a facet (sky): such pixels count as void
 };
 
 struct LabelingResult {
-  std::vector<Label> labels;         ///< per facet; kUnlabelled where no evidence reaches
-  std::vector<float> confidence;     ///< per facet, 0..1
+  std::vector<Label> labels;  ///< per facet; kUnlabelled where no evidence reaches
+  /// Per facet, 0..1: the local posterior of its label minus that of the next best class, given the
+  /// final labels of those neighbours that have evidence of their own (min-marginals of the whole
+  /// field would be too dear). Facets deep in unseen parts thus have confidence 0.
+  std::vector<float> confidence;
   std::vector<std::uint16_t> views;  ///< per facet: images that see one of its vertices
-  double energy_before = 0.0;        ///< of the arg-max data labelling
-  double energy_after = 0.0;
-  std::size_t changed = 0;  ///< facets whose label differs from the mesh's
+  double energy_before = 0.0;        ///< nats, of the arg-max data labelling
+  double energy_after = 0.0;         ///< nats, never above energy_before
+  std::size_t changed = 0;           ///< facets whose label differs from the mesh's
 };
 
 /// `renderings[k]` is the mesh rendered in `views[k]`. Views without a segmentation are ignored.
-/// Throws std::invalid_argument on sizes that do not match.
+/// Void pixels (kUnlabelled and excluded labels) do not count as seeing. The result does not depend
+/// on the number of threads nor on how the classes are numbered.
+/// Throws std::invalid_argument on sizes or types that do not match, an invalid mesh or camera, or
+/// a configuration out of range.
 LabelingResult label_facets(const TriangleMesh& mesh,
                             const std::vector<LabeledView>& views,
                             const std::vector<FacetImage>& renderings,

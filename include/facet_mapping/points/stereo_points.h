@@ -15,7 +15,7 @@ namespace facet_mapping {
 
 struct StereoConfig {
   int num_disparities = 128;             ///< search range in pixels, a multiple of 16
-  int block_size = 5;                    ///< matching window in pixels, odd
+  int block_size = 5;                    ///< matching window in pixels, odd, at most 11
   int uniqueness_percent = 10;           ///< margin of the best over the second-best cost
   double left_right_tolerance_px = 1.5;  ///< largest disagreement of the two directions
   int speckle_size_px = 200;             ///< smaller regions of similar disparity are dropped
@@ -33,15 +33,22 @@ struct StereoConfig {
 };
 
 struct StereoReport {
-  std::size_t matched_pixels = 0;
-  std::size_t points = 0;
+  std::size_t matched_pixels = 0;  ///< pixels with a disparity
+  std::size_t points = 0;          ///< points returned
 };
 
-/// Disparity (CV_32F, pixels, NaN where none) of a rectified 8-bit grey pair, left-right checked.
-/// Throws std::invalid_argument on unequal sizes or types.
+/// Disparity (CV_32F, pixels, NaN where none) of a rectified 8-bit grey pair: semi-global matching
+/// (Hirschmueller 2008; OpenCV's three-path form), checked against a match in the other direction
+/// at half size. Pairs smaller than the window give NaN.
+/// Throws std::invalid_argument on unequal sizes, other types or a config out of range.
 cv::Mat stereo_disparity(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config);
 
-/// Thinned points in the left camera's optical frame. `labels` (CV_16UC1 ids) may be empty.
+/// Thinned points in the left camera's optical frame, metres, each disparity refined on the images.
+/// `labels` (CV_16UC1 ids, size of the image) may be empty: then no point has a class. Pixels near
+/// depth edges, out of range or of an excluded class give no point; an empty pair gives none.
+/// sigma = depth^2 * disparity_sigma_px / (fx * baseline_m).
+/// Throws std::invalid_argument as stereo_disparity does, and if camera, labels or baseline do not
+/// fit the images.
 std::vector<LabeledPoint> stereo_points(const cv::Mat& left,
                                         const cv::Mat& right,
                                         const cv::Mat& labels,

@@ -51,7 +51,7 @@ class MapWorker {
   /// Forgets the map and what waits, and runs `on_reset`; no update of the old map is handed out
   /// afterwards.
   void reset(const std::function<void()>& on_reset);
-  /// Frames that wait for the map.
+  /// Frames that are not yet in the map: waiting or in the running update.
   std::size_t size() const;
   /// Joins the thread after the running update.
   void stop();
@@ -70,9 +70,10 @@ class MapWorker {
   std::size_t queue_size_;
   std::chrono::duration<double> update_period_;
   Callbacks callbacks_;
-  mutable std::mutex mutex_;  // guards the four below
+  mutable std::mutex mutex_;  // guards the five below
   std::condition_variable wake_;
   std::deque<Item> queue_;
+  std::size_t in_work_ = 0;
   std::uint64_t epoch_ = 0;  // grows with each reset
   bool stopping_ = false;
   std::mutex publish_mutex_;  // an update is handed out before or after a reset, never across

@@ -65,7 +65,7 @@ struct RefinerNodeConfig {
   MeshOutput output;
   double keyframe_translation_m = 0.5;
   double keyframe_rotation_deg = 10.0;
-  int max_keyframes = 500;
+  int max_keyframes = 200;
   int max_keyframe_mib = 2048;
   RefinementConfig refinement;
 };

@@ -49,6 +49,7 @@ class StereoPointsNode {
   SegmentationReader segmentation_;
   StampSync sync_;
   TimeJumpDetector time_jump_;
+  std::size_t unpaired_ = 0;  // of sync_, as far as complained about
   std::vector<std::string> topics_;
   boost::shared_ptr<const sensor_msgs::CameraInfo> last_info_[2];
   ros::Publisher points_pub_;

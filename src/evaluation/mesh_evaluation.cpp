@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/evaluation/mesh_evaluation.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+#include "facet_mapping/render/facet_renderer.h"
+
+namespace facet_mapping {
+namespace {
+
+// Sums up over the views of one mesh.
+class Evaluator {
+ public:
+  Evaluator(const TriangleMesh& mesh, const Dataset& dataset, const EvaluationOptions& options)
+      : mesh_(mesh),
+        dataset_(dataset),
+        options_(options),
+        renderer_(make_renderer()),
+        depth_(options.depth) {
+    result_.vertices = mesh.vertices.size();
+    result_.facets = mesh.triangles.size();
+    result_.areas = class_areas(mesh);
+  }
+
+  void add_view(std::size_t index) {
+    const DatasetFrame& frame = dataset_.frames[index];
+    DepthErrors errors(options_.depth);
+    FacetImage image;
+    const cv::Mat truth = true_depth(dataset_, frame, options_.scan);
+    if (!truth.empty()) {
+      image = render(frame.view, truth.size(), frame.gt_depth);
+      errors.add(image.depth, truth);
+      depth_.add(errors);
+      ++(frame.gt_depth.empty() ? result_.scan_views : result_.depth_image_views);
+      result_.views.push_back({index, errors.scores()});
+    }
+    if (!frame.gt_labels.empty() && !mesh_.labels.empty()) {
+      add_labels(frame, image);
+    }
+  }
+
+  MeshEvaluation result() {
+    result_.depth = depth_.scores();
+    result_.labels = labels_.scores(options_.min_class_pixels);
+    return result_;
+  }
+
+ private:
+  FacetImage render(const View& view, const cv::Size& size, const std::string& what) {
+    return renderer_->render(mesh_, view_of_size(view, size, what));
+  }
+
+  void add_labels(const DatasetFrame& frame, FacetImage& image) {
+    const cv::Mat truth = read_labels(frame.gt_labels);
+    if (image.facets.size() != truth.size()) {
+      image = render(frame.view, truth.size(), frame.gt_labels);
+    }
+    labels_.add(label_image(image, mesh_), truth);
+    ++result_.label_views;
+  }
+
+  const TriangleMesh& mesh_;
+  const Dataset& dataset_;
+  const EvaluationOptions& options_;
+  std::unique_ptr<FacetRenderer> renderer_;
+  DepthErrors depth_;
+  ConfusionMatrix labels_;
+  MeshEvaluation result_;
+};
+
+std::vector<std::size_t> chosen_views(const Dataset& dataset, const EvaluationOptions& options) {
+  std::vector<std::size_t> views = options.views;
+  if (views.empty()) {
+    views.resize(dataset.frames.size());
+    std::iota(views.begin(), views.end(), std::size_t{0});
+  }
+  for (const std::size_t view : views) {
+    if (view >= dataset.frames.size()) {
+      throw std::invalid_argument("there is no view " + std::to_string(view) +
+                                  ": the dataset has views 0 to " +
+                                  std::to_string(dataset.frames.size() - 1));
+    }
+  }
+  return views;
+}
+
+}  // namespace
+
+MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
+                             const LabelSet& labels,
+                             const Dataset& dataset,
+                             const EvaluationOptions& options,
+                             const EvaluationProgress& progress) {
+  const std::vector<std::size_t> views = chosen_views(dataset, options);
+  const TriangleMesh shown = shown_facets(mesh, labels, options.hide_unlabelled, options.hide_sky);
+  Evaluator evaluator(shown, dataset, options);
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    evaluator.add_view(views[k]);
+    if (progress) {
+      progress(k + 1, views.size());
+    }
+  }
+  MeshEvaluation result = evaluator.result();
+  if (result.depth_image_views + result.scan_views + result.label_views == 0) {
+    throw std::runtime_error(
+        "none of the chosen views has ground truth that this mesh can be compared with: a depth "
+        "image, a scan, or ground-truth labels for a labelled mesh");
+  }
+  return result;
+}
+
+TriangleMesh shown_facets(const TriangleMesh& mesh,
+                          const LabelSet& labels,
+                          bool hide_unlabelled,
+                          bool hide_sky) {
+  if (mesh.labels.empty() || !(hide_unlabelled || hide_sky)) {
+    return mesh;
+  }
+  std::vector<bool> keep(mesh.triangles.size());
+  for (std::size_t f = 0; f < keep.size(); ++f) {
+    const ClassInfo* info = labels.find(mesh.labels[f]);
+    const bool is_sky = info != nullptr && info->sky;
+    keep[f] = !(hide_unlabelled && mesh.labels[f] == kUnlabelled) && !(hide_sky && is_sky);
+  }
+  return select_facets(mesh, keep);
+}
+
+std::vector<ClassArea> class_areas(const TriangleMesh& mesh) {
+  std::map<Label, ClassArea> areas;
+  for (std::size_t f = 0; f < mesh.labels.size(); ++f) {
+    ClassArea& area = areas[mesh.labels[f]];
+    area.id = mesh.labels[f];
+    ++area.facets;
+    area.area_m2 += facet_cross(mesh, f).norm() / 2.0;
+  }
+  std::vector<ClassArea> list;
+  list.reserve(areas.size());
+  for (const auto& [id, area] : areas) {
+    list.push_back(area);
+  }
+  return list;
+}
+
+cv::Mat true_depth(const Dataset& dataset,
+                   const DatasetFrame& frame,
+                   const ScanDepthOptions& options) {
+  if (!frame.gt_depth.empty()) {
+    return read_depth(frame.gt_depth, dataset.depth_scale);
+  }
+  if (!frame.scan.empty()) {
+    return scan_depth(read_scan(frame.scan), dataset.left_from_velo, frame.view.camera, options);
+  }
+  return {};
+}
+
+View view_of_size(const View& view, const cv::Size& size, const std::string& what) {
+  const PinholeCamera& camera = view.camera;
+  const double width_ratio = static_cast<double>(size.width) / camera.width;
+  const double height_ratio = static_cast<double>(size.height) / camera.height;
+  if (std::abs(width_ratio / height_ratio - 1.0) > 0.01) {
+    throw std::invalid_argument("'" + what + "' is " + std::to_string(size.width) + "x" +
+                                std::to_string(size.height) +
+                                " pixels, which has not the shape of " + "its camera's " +
+                                std::to_string(camera.width) + "x" + std::to_string(camera.height));
+  }
+  return {camera.resized(size.width, size.height), view.world_from_cam};
+}
+
+}  // namespace facet_mapping

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/labeling/facet_labeling.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "labeling/facet_field.h"
+#include "labeling/facet_graph.h"
+#include "labeling/vertex_votes.h"
+
+#include "facet_mapping/labeling/alpha_expansion.h"
+
+namespace facet_mapping {
+namespace {
+
+void require(bool condition, const std::string& sentence) {
+  if (!condition) {
+    throw std::invalid_argument("labelling: " + sentence);
+  }
+}
+
+void check_config(const LabelingConfig& c) {
+  require(c.beta > 0.0 && c.beta <= 1.0, "beta must lie in (0, 1]");
+  require(c.normal_weight >= 0.0 && c.normal_weight <= 1000.0,
+          "normal_weight must lie in [0, 1000]");
+  require(c.normal_floor > 0.0 && c.normal_floor <= 1.0, "normal_floor must lie in (0, 1]");
+  require(c.min_normal_sigma_deg > 0.0 && c.min_normal_sigma_deg <= 180.0,
+          "min_normal_sigma_deg must lie in (0, 180]");
+  require(c.smooth_different > 0.0 && c.smooth_equal <= 1.0 && c.smooth_different <= c.smooth_equal,
+          "0 < smooth_different <= smooth_equal <= 1 must hold");
+  require(c.own_label_weight >= 0.0 && c.own_label_weight <= 1000.0,
+          "own_label_weight must lie in [0, 1000]");
+  require(c.max_sweeps >= 0, "max_sweeps must not be negative");
+}
+
+void check_views(const std::vector<LabeledView>& views, const std::vector<FacetImage>& renderings) {
+  require(views.size() == renderings.size(),
+          "give one rendering per view, not " + std::to_string(renderings.size()) + " for " +
+              std::to_string(views.size()));
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const cv::Mat& labels = views[k].labels;
+    if (labels.empty()) {
+      continue;
+    }
+    const cv::Size size(views[k].view.camera.width, views[k].view.camera.height);
+    require(
+        labels.type() == CV_16UC1 && labels.size() == size,
+        "the segmentation of view " + std::to_string(k) + " must be CV_16UC1 of the camera's size");
+    require(renderings[k].depth.size() == size,
+            "the rendering of view " + std::to_string(k) + " does not have the camera's size");
+  }
+}
+
+/// Nothing to decide: no class occurs anywhere.
+LabelingResult unlabelled(const TriangleMesh& mesh) {
+  LabelingResult result;
+  result.labels.assign(mesh.triangles.size(), kUnlabelled);
+  result.confidence.assign(mesh.triangles.size(), 0.0F);
+  result.views.assign(mesh.triangles.size(), 0);
+  return result;
+}
+
+/// Facets that no evidence reaches take part with an arbitrary class, which costs nothing there.
+std::vector<ClassIndex> without_gaps(std::vector<ClassIndex> classes) {
+  std::replace(classes.begin(), classes.end(), kNoClass, ClassIndex{0});
+  return classes;
+}
+
+std::size_t count_changed(const TriangleMesh& mesh, const std::vector<Label>& labels) {
+  std::size_t changed = 0;
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    const Label before = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
+    changed += labels[f] != before ? 1 : 0;
+  }
+  return changed;
+}
+
+LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const LabelingConfig& config) {
+  const FacetGraph graph = make_facet_graph(mesh, config);
+  const FacetField field = make_field(mesh, votes, graph, config);
+  PottsSolution solution =
+      minimise_potts(field.problem, without_gaps(field.start), config.max_sweeps);
+  LabelingResult result = unlabelled(mesh);
+  for (std::size_t f = 0; f < result.labels.size(); ++f) {
+    if (field.start[f] != kNoClass) {
+      result.labels[f] = votes.classes[solution.labels[f]];
+    }
+  }
+  result.confidence = label_margins(field, graph, solution.labels);
+  result.views = std::move(votes.facet_views);
+  result.energy_before = static_cast<double>(solution.energies.front()) / kCostUnit;
+  result.energy_after = static_cast<double>(solution.energies.back()) / kCostUnit;
+  return result;
+}
+
+}  // namespace
+
+LabelingResult label_facets(const TriangleMesh& mesh,
+                            const std::vector<LabeledView>& views,
+                            const std::vector<FacetImage>& renderings,
+                            const LabelingConfig& config) {
+  check_config(config);
+  validate(mesh);
+  check_views(views, renderings);
+  VertexVotes votes = count_votes(mesh, views, renderings, config);
+  LabelingResult result =
+      votes.classes.empty() ? unlabelled(mesh) : solve(mesh, std::move(votes), config);
+  result.changed = count_changed(mesh, result.labels);
+  return result;
+}
+
+}  // namespace facet_mapping

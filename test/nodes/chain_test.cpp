@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Images in, refined labelled mesh file out: stereo_points, mapper and refiner together.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "corridor.h"
+#include "node_harness.h"
+#include <gtest/gtest.h>
+
+#include "facet_mapping/CancelRefine.h"
+#include "facet_mapping/ClassPalette.h"
+#include "facet_mapping/GetMesh.h"
+#include "facet_mapping/MeshStats.h"
+#include "facet_mapping/Refine.h"
+#include "facet_mapping/RefineProgress.h"
+#include "facet_mapping/Relabel.h"
+#include "facet_mapping/SaveMesh.h"
+#include "facet_mapping/geometry/manifold.h"
+#include "facet_mapping/io/ply.h"
+#include "facet_mapping/ros/mesh_conversions.h"
+
+namespace facet_mapping::test {
+namespace {
+
+constexpr int kFrames = 5;
+constexpr double kStepM = 0.8;
+
+template <typename Message>
+class LastMessage {
+ public:
+  explicit LastMessage(const std::string& topic) {
+    subscriber_ = ros::NodeHandle().subscribe<Message>(
+        topic, 100, [this](const boost::shared_ptr<const Message>& message) { last_ = message; });
+  }
+  bool wait() const {
+    return wait_until([this] { return last_ != nullptr; });
+  }
+  const boost::shared_ptr<const Message>& get() const { return last_; }
+
+ private:
+  ros::Subscriber subscriber_;
+  boost::shared_ptr<const Message> last_;
+};
+
+template <typename Service>
+typename Service::Response call(const std::string& name,
+                                const typename Service::Request& request = {}) {
+  Service service;
+  service.request = request;
+  EXPECT_TRUE(ros::service::waitForService(name, 10000));
+  EXPECT_TRUE(ros::service::call(name, service)) << name;
+  return service.response;
+}
+
+std::set<Label> classes_of(const TriangleMesh& mesh) {
+  return {mesh.labels.begin(), mesh.labels.end()};
+}
+
+/// Median distance of the labelled facets' corners from the true surfaces, metres.
+double median_error(const TriangleMesh& mesh) {
+  std::vector<double> errors;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (mesh.labels[f] != kUnlabelled) {
+      errors.push_back(distance_to_corridor(mesh.vertices[mesh.triangles[f][0]]));
+    }
+  }
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  return errors.empty() ? 1e9 : errors[errors.size() / 2];
+}
+
+/// Drives down the corridor once, for all tests.
+class ChainTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    CorridorCar car;
+    const DiagnosticsEar diagnostics;
+    map_mesh_ = std::make_unique<MeshEar>("mapper/mesh");
+    ASSERT_TRUE(wait_until([&] { return car.is_connected(); }));
+    for (int k = 0; k < kFrames; ++k) {
+      car.drive_to(k * kStepM, ros::Time::now());
+      wait_until([] { return false; }, 0.1);
+    }
+    ASSERT_TRUE(wait_until(
+        [&] {
+          return diagnostics.value("mapper", "keyframes") == kFrames &&
+                 diagnostics.value("refiner", "keyframes") == kFrames &&
+                 diagnostics.value("mapper", "frames waiting for the map") == 0;
+        },
+        60.0));
+    ASSERT_TRUE(wait_until([] { return map_mesh_->has_facets(); }));
+    wait_until([] { return false; }, 1.5);  // the last delta
+  }
+  static void TearDownTestSuite() { map_mesh_.reset(); }
+
+  static std::unique_ptr<MeshEar> map_mesh_;
+};
+
+std::unique_ptr<MeshEar> ChainTest::map_mesh_;
+
+TEST_F(ChainTest, MapIsAClosedLabelledManifoldWhereTheCorridorIs) {
+  EXPECT_FALSE(map_mesh_->missed_something());
+  const TriangleMesh mesh = map_mesh_->receiver().mesh();
+  EXPECT_TRUE(check_manifold(mesh).is_closed_manifold()) << check_manifold(mesh).to_string();
+  EXPECT_EQ(map_mesh_->receiver().frame_id(), "map");
+  const std::set<Label> classes = classes_of(mesh);
+  EXPECT_EQ(classes.count(kRoad), 1U);
+  EXPECT_EQ(classes.count(kBuilding), 1U);
+  EXPECT_LT(median_error(mesh), 0.1);
+}
+
+TEST_F(ChainTest, GetMeshFiltersByRegionAndClass) {
+  const auto whole = call<GetMesh>("mapper/get_mesh");
+  ASSERT_EQ(whole.status.code, Status::OK) << whole.status.message;
+  EXPECT_EQ(whole.mesh.map_id, map_mesh_->receiver().map_id());
+  const TriangleMesh mesh = mesh_from_message(whole.mesh);
+  EXPECT_EQ(mesh.triangles.size(), map_mesh_->receiver().mesh().triangles.size());
+
+  GetMesh::Request request;
+  request.classes = {kRoad};
+  const auto road = call<GetMesh>("mapper/get_mesh", request);
+  EXPECT_EQ(classes_of(mesh_from_message(road.mesh)), (std::set<Label>{kRoad}));
+  EXPECT_EQ(road.mesh.map_id, "");
+
+  request.classes.clear();
+  request.region.frame_id = "camera";
+  request.region.min.x = request.region.min.y = -100.0;
+  request.region.max.x = request.region.max.y = request.region.max.z = 100.0;
+  const auto ahead = mesh_from_message(call<GetMesh>("mapper/get_mesh", request).mesh);
+  EXPECT_GT(ahead.triangles.size(), 0U);
+  EXPECT_LT(ahead.triangles.size(), mesh.triangles.size());
+
+  request.region.frame_id = "nowhere";
+  EXPECT_EQ(call<GetMesh>("mapper/get_mesh", request).status.code, Status::INVALID_ARGUMENT);
+}
+
+TEST_F(ChainTest, PaletteIsLatchedAndImagesOfTheClassesCome) {
+  const LastMessage<ClassPalette> palette("mapper/palette");
+  EXPECT_TRUE(palette.wait());
+  EXPECT_EQ(palette.get()->classes.size(), 19U);
+}
+
+TEST_F(ChainTest, DryRunChangesNothing) {
+  Refine::Request request;
+  request.dry_run = 1;
+  const auto response = call<Refine>("refiner/refine", request);
+  EXPECT_EQ(response.status.code, Status::OK) << response.status.message;
+  EXPECT_EQ(response.views, kFrames);
+  EXPECT_GT(response.peak_memory, 0.0);
+  EXPECT_GT(response.before.photometric, 0.0);
+  EXPECT_EQ(call<GetMesh>("refiner/get_mesh").status.code, Status::NOT_READY);
+}
+
+TEST_F(ChainTest, MemoryBudgetAndUnsupportedPartsAreRefused) {
+  Refine::Request request;
+  request.memory_budget = 0.001;
+  EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::INVALID_ARGUMENT);
+  request = {};
+  request.classes = {kRoad};
+  EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::INVALID_ARGUMENT);
+  request = {};
+  request.start = Refine::Request::START_REFINED;
+  EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::NOT_READY);
+  EXPECT_EQ(call<CancelRefine>("refiner/cancel_refine").status.code, Status::NOT_READY);
+}
+
+TEST_F(ChainTest, RefineLowersTheEnergyAndTheFileReadsBack) {
+  const MeshEar refined("refiner/mesh");
+  const LastMessage<RefineProgress> progress("refiner/progress");
+  const LastMessage<sensor_msgs::Image> label_image("refiner/label_image");
+  ASSERT_TRUE(wait_until([&] { return refined.messages() > 0; }));  // the empty full mesh
+  Refine::Request request;
+  request.iterations = 3;
+  request.levels = 1;
+  request.return_mesh = 1;
+  const auto response = call<Refine>("refiner/refine", request);
+  ASSERT_EQ(response.status.code, Status::OK) << response.status.message;
+  EXPECT_LT(response.after.photometric, response.before.photometric);
+  EXPECT_EQ(response.facets_before, map_mesh_->receiver().mesh().triangles.size());
+  ASSERT_TRUE(progress.wait());
+  ASSERT_TRUE(wait_until([&] { return refined.has_facets(); }));
+  const TriangleMesh mesh = refined.receiver().mesh();
+  EXPECT_EQ(mesh.triangles.size(), response.facets_after);
+  EXPECT_EQ(mesh_from_message(response.mesh).triangles.size(), response.facets_after);
+  EXPECT_TRUE(check_manifold(mesh).is_closed_manifold()) << check_manifold(mesh).to_string();
+  EXPECT_LT(median_error(mesh), 0.1);
+  ASSERT_TRUE(label_image.wait());
+  EXPECT_EQ(label_image.get()->encoding, "mono8");
+
+  const auto folder = std::filesystem::temp_directory_path() / "facet_mapping_chain_test";
+  SaveMesh::Request save;
+  save.path = (folder / "new" / "street").string();
+  const auto saved = call<SaveMesh>("refiner/save_mesh", save);
+  ASSERT_EQ(saved.status.code, Status::OK) << saved.status.message;
+  EXPECT_EQ(saved.path, save.path + ".ply");
+  const MeshFile file = read_ply(saved.path);
+  EXPECT_EQ(file.mesh.triangles.size(), response.facets_after);
+  EXPECT_EQ(file.frame_id, "map");
+  EXPECT_EQ(classes_of(file.mesh), classes_of(mesh));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(ChainTest, RelabelKeepsTheGeometry) {
+  const auto response = call<Relabel>("refiner/relabel");
+  ASSERT_EQ(response.status.code, Status::OK) << response.status.message;
+  EXPECT_GT(response.facets, 0U);
+  const TriangleMesh mesh = mesh_from_message(call<GetMesh>("refiner/get_mesh").mesh);
+  EXPECT_EQ(classes_of(mesh).count(kRoad), 1U);
+  EXPECT_TRUE(check_manifold(mesh).is_closed_manifold());
+}
+
+}  // namespace
+}  // namespace facet_mapping::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "chain_test");
+  const ros::NodeHandle keeps_the_node_alive;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: facet_mapping contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Launch files: they parse, document their arguments and set only parameters that are read; the
+README's parameter tables are those of the programs."""
+import glob
+import os
+import re
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import roslaunch.config
+import roslaunch.loader
+import roslaunch.xmlloader
+import roslib.packages
+import rospkg
+import rostest
+
+PACKAGE = "facet_mapping"
+NODES = ["stereo_points", "mapper", "refiner"]
+FOLDER = rospkg.RosPack().get_path(PACKAGE)
+LAUNCH_FILES = sorted(glob.glob(os.path.join(FOLDER, "launch", "*.launch")))
+
+
+def load(path, *arguments):
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader().load(path, config, argv=list(arguments), verbose=False)
+    return config
+
+
+def parameter_table(node):
+    program = roslib.packages.find_node(PACKAGE, node)[0]
+    return subprocess.run([program, "--parameters"], check=True, text=True, capture_output=True,
+                          timeout=60).stdout
+
+
+def documented(node):
+    return set(re.findall(r"^\| `([^`]+)` \|", parameter_table(node), re.MULTILINE))
+
+
+class LaunchFilesTest(unittest.TestCase):
+    def test_there_are_launch_files(self):
+        names = [os.path.basename(path) for path in LAUNCH_FILES]
+        for name in ["custom.launch", "demo.launch", "kitti.launch"]:
+            self.assertIn(name, names)
+
+    def test_every_argument_is_documented(self):
+        for path in LAUNCH_FILES:
+            for argument in ElementTree.parse(path).getroot().findall("arg"):
+                self.assertTrue(argument.get("doc"), "%s: %s" % (path, argument.get("name")))
+
+    def test_every_program_exists(self):
+        for path in LAUNCH_FILES:
+            for node in load(path).nodes:
+                if node.package != "rviz":
+                    self.assertTrue(roslib.packages.find_node(node.package, node.type),
+                                    "%s: %s/%s" % (path, node.package, node.type))
+
+    def test_only_parameters_that_are_read_are_set(self):
+        known = {node: documented(node) for node in NODES}
+        for path in LAUNCH_FILES:
+            for key in load(path).params:
+                node, _, name = key.lstrip("/").partition("/")
+                if node in known:
+                    self.assertIn(name, known[node], path)
+
+    def test_kitti_topics(self):
+        kitti = os.path.join(FOLDER, "launch", "kitti.launch")
+        config = load(kitti, "lidar:=true", "bag:=/data/drive.bag")
+        self.assertEqual(config.params["/mapper/point_topics"].value, ["points", "point_cloud"])
+        nodes = {node.name: node for node in config.nodes}
+        self.assertIn(("point_cloud", "/kitti/velo/pointcloud"),
+                      [(a.strip("/"), b) for a, b in nodes["mapper"].remap_args])
+        self.assertIn("/data/drive.bag", nodes["player"].args)
+        self.assertNotIn("player", [node.name for node in load(kitti).nodes])
+        self.assertEqual(load(kitti).params["/mapper/point_topics"].value, ["points"])
+        self.assertTrue(load(kitti).params["/use_sim_time"].value)
+
+    def test_a_namespace_around_is_followed(self):
+        path = os.path.join(FOLDER, "launch", "custom.launch")
+        config = roslaunch.config.ROSLaunchConfig()
+        loader = roslaunch.xmlloader.XmlLoader()
+        text = '<launch><group ns="car"><include file="%s"/></group></launch>' % path
+        loader.load_string(text, config, verbose=False)
+        self.assertIn("/car/mapper/map_frame", config.params)
+
+    def test_readme_tables_are_those_of_the_programs(self):
+        with open(os.path.join(FOLDER, "README.md"), encoding="utf-8") as file:
+            readme = file.read()
+        for node in NODES:
+            marked = re.search(r"<!-- parameters %s -->\n(.*?)<!-- end -->" % node, readme, re.DOTALL)
+            if marked is None:
+                self.skipTest("README.md has no table between '<!-- parameters %s -->' and "
+                              "'<!-- end -->'" % node)
+            self.assertEqual(marked.group(1).strip(), parameter_table(node).strip(),
+                             "paste the output of: rosrun facet_mapping %s --parameters" % node)
+
+
+if __name__ == "__main__":
+    rostest.rosrun(PACKAGE, "launch_files", LaunchFilesTest, sys.argv)

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole refinement against known shapes.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "facet_mapping/geometry/manifold.h"
+#include "refine_scenes.h"
+
+namespace facet_mapping {
+namespace {
+
+using test::Scene;
+
+/// Root mean square of `error` (metres) over the vertices well inside all images, in pixels of
+/// parallax.
+template <typename Inside, typename Error>
+double rms_px(const TriangleMesh& mesh, double px_per_m, const Inside& inside, const Error& error) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (inside(v)) {
+      sum += std::pow(error(v) * px_per_m, 2);
+      ++count;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+double plane_error_px(const Scene& scene, const TriangleMesh& mesh) {
+  return rms_px(
+      mesh,
+      scene.parallax_px_per_m,
+      [](const Eigen::Vector3d& v) { return std::abs(v.x()) < 0.8 && std::abs(v.y()) < 0.6; },
+      [](const Eigen::Vector3d& v) { return v.z(); });
+}
+
+double ball_error_px(const Scene& scene, const TriangleMesh& mesh) {
+  return rms_px(
+      mesh,
+      scene.parallax_px_per_m,
+      [](const Eigen::Vector3d& v) {
+        return v.z() > 0.0 && std::abs(v.x()) < 0.7 && std::abs(v.y()) < 0.6;
+      },
+      [](const Eigen::Vector3d& v) { return v.norm() - test::kBallRadius; });
+}
+
+TEST(RefinePhotometric, PlaneReturnsToTheTruth) {
+  const Scene scene = test::wavy_plane();
+  const RefinementResult result =
+      refine(scene.mesh, scene.views, LabelSet(), test::photometric_config());
+  const double before = plane_error_px(scene, scene.mesh);
+  const double after = plane_error_px(scene, result.mesh);
+  RecordProperty("rms_px_before", std::to_string(before));
+  RecordProperty("rms_px_after", std::to_string(after));
+  EXPECT_GT(before, 0.35);
+  EXPECT_LT(after, 0.05);
+  EXPECT_LT(result.after.photometric, 0.2 * result.before.photometric);
+  EXPECT_FALSE(result.cancelled);
+}
+
+TEST(RefinePhotometric, BallReturnsToTheTruth) {
+  const Scene scene = test::bumpy_ball(5);
+  const RefinementResult result =
+      refine(scene.mesh, scene.views, LabelSet(), test::photometric_config());
+  const double before = ball_error_px(scene, scene.mesh);
+  const double after = ball_error_px(scene, result.mesh);
+  RecordProperty("rms_px_before", std::to_string(before));
+  RecordProperty("rms_px_after", std::to_string(after));
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(after, 0.05);
+  EXPECT_LT(result.after.photometric, 0.3 * result.before.photometric);
+}
+
+TEST(RefinePhotometric, TheTruthStays) {
+  Scene scene = test::wavy_plane();
+  for (Eigen::Vector3d& v : scene.mesh.vertices) {
+    v.z() = 0.0;
+  }
+  const RefinementResult result =
+      refine(scene.mesh, scene.views, LabelSet(), test::photometric_config());
+  EXPECT_LT(plane_error_px(scene, result.mesh), 0.02);
+  EXPECT_LE(result.after.photometric, result.before.photometric);
+}
+
+/// Coarse facets: the refinement must split them to follow the ball.
+TEST(RefinePhotometric, MeshStaysAClosedManifoldWithoutFlips) {
+  const Scene scene = test::bumpy_ball(3);
+  RefinementConfig config = test::photometric_config();
+  config.subdivide_px = 12.0;
+  const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  const ManifoldReport report = check_manifold(result.mesh);
+  EXPECT_TRUE(report.is_closed_manifold()) << report.to_string();
+  EXPECT_EQ(result.facets_before, scene.mesh.triangles.size());
+  EXPECT_EQ(result.facets_after, result.mesh.triangles.size());
+  EXPECT_GT(result.facets_after, 4 * result.facets_before);
+  const std::vector<Eigen::Vector3d> normals = facet_normals(result.mesh);
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    EXPECT_GT(normals[f].dot(result.mesh.vertices[result.mesh.triangles[f][0]]), 0.0);
+  }
+  EXPECT_LT(ball_error_px(scene, result.mesh), 0.5 * ball_error_px(scene, scene.mesh));
+}
+
+TEST(RefinePhotometric, WhatNoViewSeesStays) {
+  const Scene scene = test::bumpy_ball(4);
+  RefinementConfig config = test::photometric_config();
+  config.subdivide_px = 1e9;
+  const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < scene.mesh.vertices.size(); ++k) {
+    const bool same = result.mesh.vertices[k] == scene.mesh.vertices[k];
+    moved += same ? 0 : 1;
+    EXPECT_TRUE(same || scene.mesh.vertices[k].z() > 0.3);
+  }
+  EXPECT_GT(moved, 100U);
+}
+
+TEST(RefinePhotometric, SmoothingAloneDoesNotShrinkTheBall) {
+  Scene scene = test::bumpy_ball(4);
+  for (Eigen::Vector3d& v : scene.mesh.vertices) {
+    v *= test::kBallRadius / v.norm();
+  }
+  RefinementConfig config = test::photometric_config();
+  config.photometric = false;
+  config.levels = 1;
+  config.iterations = 20;
+  config.subdivide_px = 1e9;
+  const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  double mean = 0.0;
+  int count = 0;
+  for (const Eigen::Vector3d& v : result.mesh.vertices) {
+    if (v.z() > 1.2) {
+      mean += v.norm();
+      ++count;
+    }
+  }
+  EXPECT_NEAR(mean / count / test::kBallRadius, 1.0, 0.002);
+}
+
+TEST(RefinePhotometric, FollowsTheUnitOfLength) {
+  const Scene scene = test::bumpy_ball(4);
+  Scene large = scene;
+  constexpr double kScale = 1000.0;
+  for (Eigen::Vector3d& v : large.mesh.vertices) {
+    v *= kScale;
+  }
+  for (LabeledView& view : large.views) {
+    view.view.world_from_cam.translation() *= kScale;
+  }
+  const RefinementConfig config = test::photometric_config();
+  const RefinementResult a = refine(scene.mesh, scene.views, LabelSet(), config);
+  const RefinementResult b = refine(large.mesh, large.views, LabelSet(), config);
+  ASSERT_EQ(a.mesh.triangles, b.mesh.triangles);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.mesh.vertices.size(); ++k) {
+    worst = std::max(worst, (b.mesh.vertices[k] / kScale - a.mesh.vertices[k]).norm());
+  }
+  EXPECT_LT(worst * scene.parallax_px_per_m, 0.05);
+  EXPECT_NEAR(a.after.photometric, b.after.photometric, 1e-4);
+}
+
+}  // namespace
+}  // namespace facet_mapping
