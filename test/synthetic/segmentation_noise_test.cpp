@@ -4,11 +4,11 @@
 
 #include <stdexcept>
 
+#include "synthetic/test_street.h"
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "facet_mapping/synthetic/street_view.h"
-#include "synthetic/test_street.h"
 
 namespace facet_mapping {
 namespace {

@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/temp_folder.h"
+#include "synthetic/test_street.h"
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "facet_mapping/io/dataset.h"
 #include "facet_mapping/io/ply.h"
-#include "io/temp_folder.h"
-#include "synthetic/test_street.h"
 
 namespace facet_mapping {
 namespace {
@@ -50,11 +50,11 @@ TEST(StreetDataset, ReadsBackAsWritten) {
   const Street street = three_frames();
   TempFolder folder;
   std::size_t done = 0;
-  write_street_dataset(street, quick(), folder.path().string(),
-                       [&](std::size_t d, std::size_t total) {
-                         EXPECT_EQ(d, ++done);
-                         EXPECT_EQ(total, 3U);
-                       });
+  write_street_dataset(
+      street, quick(), folder.path().string(), [&](std::size_t d, std::size_t total) {
+        EXPECT_EQ(d, ++done);
+        EXPECT_EQ(total, 3U);
+      });
   EXPECT_EQ(done, 3U);
   const Dataset dataset = read_dataset(folder.path().string());
   ASSERT_EQ(dataset.frames.size(), 3U);
@@ -134,8 +134,8 @@ TEST(StreetDataset, RefusesToMixWithALongerDataset) {
 TEST(StreetDataset, SaysWhereItCannotWrite) {
   TempFolder folder;
   testing::write_text(folder / "file", "in the way");
-  const std::string error = testing::error_of(
-      [&] { write_street_dataset(three_frames(), quick(), folder / "file"); });
+  const std::string error =
+      testing::error_of([&] { write_street_dataset(three_frames(), quick(), folder / "file"); });
   EXPECT_NE(error.find("file"), std::string::npos);
   StreetDatasetConfig config = quick();
   config.label_noise = -1.0;

@@ -7,9 +7,8 @@
 #include <set>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
 #include "synthetic/test_street.h"
+#include <gtest/gtest.h>
 
 namespace facet_mapping {
 namespace {
@@ -75,8 +74,8 @@ TEST_F(StreetLidarTest, StaysInItsSectorBeamsAndRange) {
     EXPECT_LT(p.head<3>().norm(), 20.2F);
     EXPECT_GE(p.w(), 0.0F);
     EXPECT_LE(p.w(), 1.0F);
-    elevations.insert(static_cast<int>(
-        std::lround(10.0 * std::atan2(p.z(), p.head<2>().norm()) * 180.0 / M_PI)));
+    elevations.insert(
+        static_cast<int>(std::lround(10.0 * std::atan2(p.z(), p.head<2>().norm()) * 180.0 / M_PI)));
   }
   EXPECT_LE(elevations.size(), 16U);
 }

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "synthetic/test_street.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/synthetic/street_raycaster.h"
-#include "synthetic/test_street.h"
 
 namespace facet_mapping {
 namespace {
@@ -32,10 +32,14 @@ TEST(Street, EveryFacetHasALabelAreaAndMaterial) {
 TEST(Street, ShowsEveryClassAndNoOther) {
   const std::set<Label> labels(short_street().mesh.labels.begin(),
                                short_street().mesh.labels.end());
-  const std::set<Label> expected{
-      street_class::kRoad,        street_class::kSidewalk,   street_class::kBuilding,
-      street_class::kPole,        street_class::kTrafficSign, street_class::kVegetation,
-      street_class::kTerrain,     street_class::kCar};
+  const std::set<Label> expected{street_class::kRoad,
+                                 street_class::kSidewalk,
+                                 street_class::kBuilding,
+                                 street_class::kPole,
+                                 street_class::kTrafficSign,
+                                 street_class::kVegetation,
+                                 street_class::kTerrain,
+                                 street_class::kCar};
   EXPECT_EQ(labels, expected);
 }
 
@@ -81,8 +85,7 @@ TEST(Street, CameraKeepsItsHeightAboveTheRoad) {
   const Street& street = short_street();
   const StreetRaycaster raycaster(street);
   for (const StreetPose& pose : street.trajectory) {
-    const auto hit =
-        raycaster.cast(pose.map_from_left.translation(), -Eigen::Vector3d::UnitZ());
+    const auto hit = raycaster.cast(pose.map_from_left.translation(), -Eigen::Vector3d::UnitZ());
     ASSERT_TRUE(hit.has_value());
     EXPECT_EQ(street.mesh.labels[hit->facet], street_class::kRoad);
     EXPECT_NEAR(hit->distance, 1.65, 0.04);

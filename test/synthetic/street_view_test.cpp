@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "synthetic/test_street.h"
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "facet_mapping/points/stereo_points.h"
 #include "facet_mapping/synthetic/street_raycaster.h"
-#include "synthetic/test_street.h"
 
 namespace facet_mapping {
 namespace {
@@ -71,9 +71,9 @@ TEST_F(StreetViewTest, DepthAndLabelsEqualRayCasting) {
   for (int k = 0; k < kPixels; ++k) {
     const int x = static_cast<int>(random() % 621);
     const int y = static_cast<int>(random() % 188);
-    const auto hit = raycaster.cast(left_view_->center(),
-                                    left_view_->world_from_cam.linear() *
-                                        rig_->camera.ray(Eigen::Vector2d(x, y)));
+    const auto hit = raycaster.cast(
+        left_view_->center(),
+        left_view_->world_from_cam.linear() * rig_->camera.ray(Eigen::Vector2d(x, y)));
     const double depth = hit ? hit->distance : 0.0;  // the ray has z = 1
     const Label label = hit ? short_street().mesh.labels[hit->facet] : street_class::kSky;
     const bool same = std::abs(left_->depth.at<float>(y, x) - depth) < 1e-3 * (1.0 + depth) &&
