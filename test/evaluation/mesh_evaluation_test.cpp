@@ -110,9 +110,9 @@ TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
   add_wall(1.25, -20, 20, 10, mesh);
   EvaluationOptions options;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.75, 1e-6);
-  options.hide_sky = true;
+  options.hidden.sky = true;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.5, 1e-6);
-  options.hide_unlabelled = true;
+  options.hidden.unlabelled = true;
   const MeshEvaluation evaluation = evaluate_mesh(mesh, labels_, dataset_, options);
   EXPECT_NEAR(evaluation.depth.mae_m, 0.0, 1e-6);
   EXPECT_EQ(evaluation.facets, 2U);
