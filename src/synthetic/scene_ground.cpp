@@ -11,9 +11,9 @@ namespace {
 
 using namespace cross_section;
 
-constexpr double kSegment = 10.0;  // metres of ground per part
-constexpr double kCell = 0.5;      // metres of a ground cell along the street
-constexpr double kBump = 0.05;     // metres, amplitude of the terrain
+constexpr double kSegment = 10.0;    // metres of ground per part
+constexpr double kCell = 0.5;        // metres of a ground cell along the street
+constexpr double kBump = 0.05;       // metres, amplitude of the terrain
 constexpr double kEndGround = 16.0;  // metres of ground beyond the road's end
 
 /// A piece of the street's ground between two values of s.
@@ -69,8 +69,8 @@ class GroundLayer {
       return at(s, t, top(t) + (joins ? 0.0 : bump_at(s, t, bump)));
     };
     const auto keep = [&](int row, int column) {
-      return !is_built(segment.s(row), segment.s(row + 1), side * stations[column],
-                       side * stations[column + 1]);
+      return !is_built(
+          segment.s(row), segment.s(row + 1), side * stations[column], side * stations[column + 1]);
     };
     add_sided(segment.cells, static_cast<int>(stations.size()) - 1, side, vertex, surface, keep);
   }
@@ -84,8 +84,7 @@ class GroundLayer {
       v.texture = {static_cast<float>(t), static_cast<float>(h), 0.0F};
       return v;
     };
-    scene_.builder->add_grid(
-        16, 1, face, {street_class::kSidewalk, scene_.shared.kerb});
+    scene_.builder->add_grid(16, 1, face, {street_class::kSidewalk, scene_.shared.kerb});
     add_end_strip(end, end + 2.0, {street_class::kSidewalk, scene_.shared.paving});
     add_end_strip(end + 2.0, end + kEndGround, {street_class::kTerrain, scene_.shared.grass});
   }
@@ -132,8 +131,8 @@ class GroundLayer {
     }
     const auto mirrored = [&](int row, int column) { return vertex(rows - row, column); };
     const auto mirrored_keep = [&](int row, int column) { return keep(rows - row - 1, column); };
-    scene_.builder->add_grid(rows, columns, mirrored, surface,
-                             keep ? SceneBuilder::GridCell(mirrored_keep) : keep);
+    scene_.builder->add_grid(
+        rows, columns, mirrored, surface, keep ? SceneBuilder::GridCell(mirrored_keep) : keep);
   }
 
   void add_end_strip(double begin, double end, const Surface& surface) {
@@ -168,8 +167,21 @@ void add_segment(GroundLayer* layer, const Scene& scene, const Segment& segment,
     scene.builder->begin_part();
     layer->add_strip(segment,
                      side,
-                     {kPavementEnd, 9.2, 9.7, 10.3, 11.0, 12.0, 13.0, 14.5, 16.0, 18.0, 20.0, 22.0,
-                      24.0, 26.0, kBackdrop + 1.0},
+                     {kPavementEnd,
+                      9.2,
+                      9.7,
+                      10.3,
+                      11.0,
+                      12.0,
+                      13.0,
+                      14.5,
+                      16.0,
+                      18.0,
+                      20.0,
+                      22.0,
+                      24.0,
+                      26.0,
+                      kBackdrop + 1.0},
                      grass);
   }
 }

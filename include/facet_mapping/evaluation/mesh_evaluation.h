@@ -59,7 +59,8 @@ using EvaluationProgress = std::function<void(std::size_t done, std::size_t tota
 
 /// Compares the mesh rendered in each view with the frame's depth image, or its scan where there is
 /// no depth image, and with its ground-truth labels. Ground truth of another resolution than the
-/// camera's is compared at its own. Throws std::invalid_argument on views that are not there,
+/// camera's is compared at its own. Where the mesh is not seen it shows the class marked `sky`, if
+/// `labels` has one, else no class. Throws std::invalid_argument on views that are not there,
 /// std::runtime_error on broken files or if no view has any ground truth.
 MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const LabelSet& labels,
