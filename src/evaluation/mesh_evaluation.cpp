@@ -134,14 +134,15 @@ TriangleMesh shown_facets(const TriangleMesh& mesh,
                           const LabelSet& labels,
                           bool hide_unlabelled,
                           bool hide_sky) {
-  if (mesh.labels.empty() || !(hide_unlabelled || hide_sky)) {
+  if (!hide_unlabelled && !hide_sky) {
     return mesh;
   }
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t f = 0; f < keep.size(); ++f) {
-    const ClassInfo* info = labels.find(mesh.labels[f]);
+    const ClassInfo* info = mesh.labels.empty() ? nullptr : labels.find(mesh.labels[f]);
     const bool is_sky = info != nullptr && info->sky;
-    keep[f] = !(hide_unlabelled && mesh.labels[f] == kUnlabelled) && !(hide_sky && is_sky);
+    const bool is_unlabelled = !mesh.labels.empty() && mesh.labels[f] == kUnlabelled;
+    keep[f] = !(hide_unlabelled && (is_unlabelled || is_gap(mesh, f))) && !(hide_sky && is_sky);
   }
   return select_facets(mesh, keep);
 }

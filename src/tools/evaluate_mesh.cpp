@@ -36,7 +36,7 @@ void add_selection(CLI::App& app, Options& options) {
       ->excludes(views);
   app.add_flag("--hide-unlabelled",
                options.evaluation.hide_unlabelled,
-               "Take facets without a class away first");
+               "Take facets without a class, and those that nobody saw (gaps), away first");
   app.add_flag("--hide-sky", options.evaluation.hide_sky, "Take facets of sky classes away first");
 }
 

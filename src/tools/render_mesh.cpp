@@ -93,7 +93,7 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_flag("--show-unlabelled",
                options.show_unlabelled,
-               "Draw facets without a class, too, where other facets have one");
+               "Draw facets without a class where others have one, and gaps that nobody saw, too");
   app.add_flag("--hide-sky", options.hide_sky, "Do not draw facets of sky classes");
   app.add_flag("--legend", options.legend, "Say below the picture what the colours mean");
   app.footer(

@@ -24,7 +24,8 @@ struct EvaluationOptions {
   ScanDepthOptions scan;
   /// Classes with more ground-truth pixels than this enter the label means.
   std::size_t min_class_pixels = 100;
-  /// Facets without a class are taken away before rendering, so that what is behind them is seen.
+  /// Facets without a class and gaps (see is_gap) are taken away before rendering, so that what is
+  /// behind them is seen.
   bool hide_unlabelled = false;
   /// Facets of classes marked `sky` are taken away before rendering.
   bool hide_sky = false;
@@ -68,7 +69,8 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const EvaluationOptions& options = {},
                              const EvaluationProgress& progress = {});
 
-/// The mesh without unlabelled and/or sky facets.
+/// The mesh without unlabelled facets and gaps (`hide_unlabelled`; where there are no labels at all
+/// only gaps) and/or without sky facets.
 TriangleMesh shown_facets(const TriangleMesh& mesh,
                           const LabelSet& labels,
                           bool hide_unlabelled,
