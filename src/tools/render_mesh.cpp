@@ -26,13 +26,31 @@ using namespace facet_mapping;
 
 enum class Mode { kLabels, kDepth, kNormals, kShaded, kError, kOverlay };
 
+const std::map<std::string, Mode>& modes() {
+  static const std::map<std::string, Mode> all{{"labels", Mode::kLabels},
+                                               {"depth", Mode::kDepth},
+                                               {"normals", Mode::kNormals},
+                                               {"shaded", Mode::kShaded},
+                                               {"error", Mode::kError},
+                                               {"overlay", Mode::kOverlay}};
+  return all;
+}
+
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, mode] : modes()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
 struct Options {
   std::string mesh;
   std::string output;
   std::string dataset;
   std::string labels;
   std::string size;
-  Mode mode = Mode::kShaded;
+  std::string mode = "shaded";
   std::size_t view = 0;
   bool bird = false;
   std::vector<double> eye;
@@ -69,20 +87,14 @@ void add_camera_options(CLI::App& app, Options& options) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  const std::map<std::string, Mode> modes{{"labels", Mode::kLabels},
-                                          {"depth", Mode::kDepth},
-                                          {"normals", Mode::kNormals},
-                                          {"shaded", Mode::kShaded},
-                                          {"error", Mode::kError},
-                                          {"overlay", Mode::kOverlay}};
   app.add_option("MESH.ply", options.mesh, "Mesh to draw")->required();
   app.add_option("-o,--output", options.output, "Picture to write (.png or .jpg)")->required();
   app.add_option("--mode",
                  options.mode,
                  "labels, depth, normals, shaded, error (against the view's "
                  "ground truth) or overlay (labels over the view's image)")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
-      ->default_str("shaded");
+      ->check(CLI::IsMember(mode_names()))
+      ->capture_default_str();
   add_camera_options(app, options);
   app.add_option("--labels", options.labels, "Class list (YAML); default: the mesh's own");
   app.add_option("--max-error", options.max_error_m, "Error drawn in full red, metres")
@@ -216,7 +228,7 @@ class Painter {
 
 cv::Mat paint(const MeshFile& file, const std::optional<Dataset>& dataset, const Options& options) {
   Painter painter(file, chosen_view(dataset, options));
-  switch (options.mode) {
+  switch (modes().at(options.mode)) {
     case Mode::kLabels:
       return painter.labels(options.legend);
     case Mode::kDepth:
