@@ -118,6 +118,19 @@ TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
   EXPECT_EQ(evaluation.facets, 2U);
 }
 
+TEST_F(MeshEvaluationTest, GapsAreHiddenLikeUnlabelledFacets) {
+  TriangleMesh mesh;
+  add_wall(2.0, -20, 20, 2, mesh);
+  add_wall(1.5, -20, 20, 2, mesh);
+  mesh.views = {4, 4, 0, 0};
+  EXPECT_EQ(shown_facets(mesh, labels_, false, true).triangles.size(), 4U);
+  EXPECT_EQ(shown_facets(mesh, labels_, true, false).triangles.size(), 2U);
+  mesh.labels.clear();
+  EXPECT_EQ(shown_facets(mesh, labels_, true, false).views, (std::vector<std::uint16_t>{4, 4}));
+  mesh.views.clear();
+  EXPECT_EQ(shown_facets(mesh, labels_, true, true).triangles.size(), 4U);
+}
+
 TEST_F(MeshEvaluationTest, GroundTruthOfAnotherSizeIsComparedAtItsOwn) {
   cv::imwrite(dataset_.frames[0].gt_depth, cv::Mat(16, 20, CV_16U, cv::Scalar(512)));
   TriangleMesh mesh;
