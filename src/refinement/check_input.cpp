@@ -64,6 +64,8 @@ void check_views(const std::vector<LabeledView>& views) {
   }
 }
 
-void check_mesh(const TriangleMesh& mesh) { require(!mesh.empty(), "the mesh has no facets"); }
+void check_mesh(const TriangleMesh& mesh) {
+  require(!mesh.empty(), "the mesh has no facets");
+}
 
 }  // namespace facet_mapping

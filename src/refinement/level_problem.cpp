@@ -14,8 +14,7 @@ LevelProblem::LevelProblem(const std::vector<LabeledView>& views, const Refineme
     : config_(config), partners_(views.size()) {
   for (const LabeledView& view : views) {
     poses_.push_back(view.view);
-    photometric_views_.push_back(
-        make_photometric_view(view.view, view.gray, config.ncc_window_px));
+    photometric_views_.push_back(make_photometric_view(view.view, view.gray, config.ncc_window_px));
     semantic_views_.push_back({view.view, view.labels});
   }
 }
@@ -41,8 +40,8 @@ Shape LevelProblem::evaluate(TriangleMesh mesh, bool with_gradient) const {
       shape.mesh, photometric_views_, shape.surfaces, partners_, zncc, with_gradient);
   const bool semantic = config_.semantic != SemanticMode::kOff;
   if (semantic || !with_gradient) {  // without the term it is only reported
-    shape.gates = semantic_gates(
-        shape.mesh, semantic_views_, shape.surfaces, config_.semantic_window_px);
+    shape.gates =
+        semantic_gates(shape.mesh, semantic_views_, shape.surfaces, config_.semantic_window_px);
     shape.semantic = semantic_energy(shape.mesh, semantic_views_, shape.surfaces, shape.gates);
   }
   if (with_gradient && semantic) {
@@ -72,8 +71,8 @@ double LevelProblem::data_energy(const Shape& shape,
   double energy =
       config_.photometric ? shape.photometric.mean() * static_cast<double>(pixels) : 0.0;
   if (semantic_scale() > 0.0) {
-    energy += semantic_scale() *
-              semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
+    energy +=
+        semantic_scale() * semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
   }
   return energy;
 }

@@ -4,9 +4,10 @@
 
 #include <memory>
 
-#include "facet_mapping/refinement/visible_point.h"
 #include "ordered_reduce.h"
 #include "pixel_scatter.h"
+
+#include "facet_mapping/refinement/visible_point.h"
 
 namespace facet_mapping {
 namespace {
@@ -83,9 +84,9 @@ WarpedImage warp_image(const TriangleMesh& mesh,
       const int facet = surface.image.facets.at<int>(y, x);
       const Eigen::Vector3d& normal = normals[facet];
       // Distance of the facet's plane from the camera centre: n . d at every pixel of the facet.
-      const double distance =
-          normal.dot(mesh.vertices[mesh.triangles[facet][0]] - warp.center_i);
-      const Eigen::Vector3d ray = warp.camera_i.ray({static_cast<double>(x), static_cast<double>(y)});
+      const double distance = normal.dot(mesh.vertices[mesh.triangles[facet][0]] - warp.center_i);
+      const Eigen::Vector3d ray =
+          warp.camera_i.ray({static_cast<double>(x), static_cast<double>(y)});
       const double depth = distance / (warp.i_from_world * normal).dot(ray);
       const Eigen::Vector3d d_in_j = warp.j_from_i.linear() * (depth * ray);
       const Eigen::Vector3d point_in_j = d_in_j + warp.j_from_i.translation();
@@ -121,14 +122,11 @@ PhotometricEnergy photometric_energy(const TriangleMesh& mesh,
     for (const int j : partners[i]) {
       const WarpedImage warp =
           warp_image(mesh, normals, views[i].view, surfaces[i], views[j], surfaces[j]);
-      add_pair(warp,
-               zncc_energy(views[i].reference,
-                           views[i].stats,
-                           warp.warped,
-                           warp.valid,
-                           config,
-                           with_gradient),
-               &forces);
+      add_pair(
+          warp,
+          zncc_energy(
+              views[i].reference, views[i].stats, warp.warped, warp.valid, config, with_gradient),
+          &forces);
     }
     return forces;
   };
@@ -136,8 +134,13 @@ PhotometricEnergy photometric_energy(const TriangleMesh& mesh,
     total.sum += forces.energy;
     total.pixels += forces.pixels;
     if (!forces.force.empty()) {
-      scatter_to_vertices(
-          mesh, normals, views[i].view, surfaces[i].image, forces.force, forces.curvature, &total.field);
+      scatter_to_vertices(mesh,
+                          normals,
+                          views[i].view,
+                          surfaces[i].image,
+                          forces.force,
+                          forces.curvature,
+                          &total.field);
     }
   });
   return total;

@@ -39,8 +39,7 @@ void add_config_options(CLI::App* app, Options* options) {
                                                      {"normal", SemanticMode::kNormal},
                                                      {"full", SemanticMode::kFull}};
   app->add_option("--levels", config.levels, "image pyramid levels")->capture_default_str();
-  app->add_option("--iterations", config.iterations, "iterations per level")
-      ->capture_default_str();
+  app->add_option("--iterations", config.iterations, "iterations per level")->capture_default_str();
   app->add_flag("--no-photometric", options->no_photometric, "leave the photometric flow out");
   app->add_option("--semantic", config.semantic, "off, normal or full")
       ->transform(CLI::CheckedTransformer(modes));

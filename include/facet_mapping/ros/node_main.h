@@ -13,6 +13,7 @@
 #include <thread>
 
 #include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include "facet_mapping/ros/node_config.h"
