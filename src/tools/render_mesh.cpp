@@ -59,8 +59,7 @@ struct Options {
   double fov_deg = 60.0;
   double max_error_m = 0.5;
   double opacity = 0.5;
-  bool show_unlabelled = false;
-  bool hide_sky = false;
+  Hidden hidden;
   bool legend = false;
 };
 
@@ -103,10 +102,12 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--opacity", options.opacity, "Strength of the labels in --mode overlay")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("--show-unlabelled",
-               options.show_unlabelled,
-               "Draw facets without a class where others have one, and gaps that nobody saw, too");
-  app.add_flag("--hide-sky", options.hide_sky, "Do not draw facets of sky classes");
+  app.add_flag("--show-gaps{false}",
+               options.hidden.gaps,
+               "Draw facets that only close the surface (views = 0), too");
+  app.add_flag(
+      "--hide-unlabelled", options.hidden.unlabelled, "Do not draw facets without a class");
+  app.add_flag("--hide-sky", options.hidden.sky, "Do not draw facets of sky classes");
   app.add_flag("--legend", options.legend, "Say below the picture what the colours mean");
   app.footer(
       "Examples:\n"
@@ -268,7 +269,7 @@ void run(const Options& options) {
   if (!options.labels.empty()) {
     file.labels = LabelSet::load(options.labels);
   }
-  file.mesh = shown_facets(file.mesh, file.labels, !options.show_unlabelled, options.hide_sky);
+  file.mesh = shown_facets(file.mesh, file.labels, options.hidden);
   std::optional<Dataset> dataset;
   if (!options.dataset.empty()) {
     dataset = read_dataset(options.dataset);

@@ -118,17 +118,20 @@ TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
   EXPECT_EQ(evaluation.facets, 2U);
 }
 
-TEST_F(MeshEvaluationTest, GapsAreHiddenLikeUnlabelledFacets) {
+TEST_F(MeshEvaluationTest, GapsAreHiddenUnlessAskedFor) {
   TriangleMesh mesh;
   add_wall(2.0, -20, 20, 2, mesh);
   add_wall(1.5, -20, 20, 2, mesh);
   mesh.views = {4, 4, 0, 0};
-  EXPECT_EQ(shown_facets(mesh, labels_, false, true).triangles.size(), 4U);
-  EXPECT_EQ(shown_facets(mesh, labels_, true, false).triangles.size(), 2U);
-  mesh.labels.clear();
-  EXPECT_EQ(shown_facets(mesh, labels_, true, false).views, (std::vector<std::uint16_t>{4, 4}));
+  Hidden hidden;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).views, (std::vector<std::uint16_t>{4, 4}));
+  hidden.gaps = false;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
+  hidden.gaps = hidden.unlabelled = hidden.sky = true;
+  mesh.labels.clear();  // without labels nothing is unlabelled
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 2U);
   mesh.views.clear();
-  EXPECT_EQ(shown_facets(mesh, labels_, true, true).triangles.size(), 4U);
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
 }
 
 TEST_F(MeshEvaluationTest, GroundTruthOfAnotherSizeIsComparedAtItsOwn) {
