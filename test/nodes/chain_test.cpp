@@ -140,7 +140,7 @@ TEST_F(ChainTest, GetMeshFiltersByRegionAndClass) {
 TEST_F(ChainTest, PaletteIsLatchedAndImagesOfTheClassesCome) {
   const LastMessage<ClassPalette> palette("mapper/palette");
   EXPECT_TRUE(palette.wait());
-  EXPECT_EQ(palette.get()->classes.size(), 19U);
+  EXPECT_EQ(palette.get()->classes.size(), 20U);  // 19 train ids and void
 }
 
 TEST_F(ChainTest, DryRunChangesNothing) {
