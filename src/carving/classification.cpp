@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc/detail/gcgraph.hpp>
@@ -12,10 +13,8 @@
 namespace facet_mapping::carving {
 namespace {
 
-bool is_free_by_count(const Triangulation& triangulation, CellHandle cell, Weight threshold) {
-  const CellInfo& info = cell->info();
-  return !triangulation.is_infinite(cell) && info.free >= threshold &&
-         info.free > info.labels.largest();
+bool is_free_by_count(const CellInfo& cell, Weight threshold) {
+  return cell.free >= threshold && cell.free > cell.labels.largest();
 }
 
 /// Cosine of the angle at which the circumsphere of a cell meets the plane of one of its facets,
@@ -41,102 +40,130 @@ double sphere_cosine(const Triangulation& triangulation, CellHandle cell, int fa
   return std::clamp(inner * (normal * radius) / length, -1.0, 1.0);
 }
 
+double cached_cosine(const Triangulation& triangulation, CellHandle cell, int facet) {
+  constexpr float kUnknown = 1.5F;  // above any cosine
+  float& cosine = cell->info().cosine[facet];
+  if (cosine > kUnknown) {
+    cosine = static_cast<float>(sphere_cosine(triangulation, cell, facet));
+  }
+  return cosine;
+}
+
 /// Surface quality of Labatut et al. 2009: 1 - min(cos phi, cos psi), 0 for a well-shaped surface
 /// facet.
 double facet_cost(const Triangulation& triangulation, CellHandle cell, int facet) {
   const CellHandle other = cell->neighbor(facet);
-  const double phi = sphere_cosine(triangulation, cell, facet);
-  const double psi = sphere_cosine(triangulation, other, other->index(cell));
+  const double phi = cached_cosine(triangulation, cell, facet);
+  const double psi = cached_cosine(triangulation, other, other->index(cell));
   return 1.0 - std::min(phi, psi);
 }
 
+/// A minimum cut over a region of cells; what lies around it keeps its side.
 class CellCut {
  public:
-  CellCut(Triangulation* triangulation, const CarvingConfig& config)
-      : triangulation_(*triangulation), config_(config) {
-    for (const CellHandle cell : triangulation_.all_cell_handles()) {
-      cell->info().order = count_++;
+  CellCut(const Triangulation& triangulation,
+          const CarvingConfig& config,
+          const std::vector<CellHandle>& region)
+      : triangulation_(triangulation), config_(config), region_(region) {
+    std::uint32_t count = 0;
+    for (const CellHandle cell : region_) {
+      cell->info().order = count++;
     }
-    graph_.create(count_, 2 * count_);
+    graph_.create(count + 2, 2 * count + 1);
   }
 
   void solve() {
-    for (unsigned k = 0; k < count_; ++k) {
+    for (std::size_t k = 0; k < region_.size() + 2; ++k) {
       graph_.addVtx();
     }
-    for (const CellHandle cell : triangulation_.all_cell_handles()) {
-      add_evidence(cell);
-      add_facets(cell);
+    // OpenCV refuses a graph without edges, which a region of one cell is: two cells of no account.
+    graph_.addEdges(static_cast<int>(region_.size()), static_cast<int>(region_.size()) + 1, 0., 0.);
+    for (const CellHandle cell : region_) {
+      add_cell(cell);
     }
     graph_.maxFlow();
-    for (const CellHandle cell : triangulation_.all_cell_handles()) {
-      CellInfo& info = cell->info();
-      info.is_free =
-          !triangulation_.is_infinite(cell) && graph_.inSourceSegment(static_cast<int>(info.order));
+    for (const CellHandle cell : region_) {
+      cell->info().is_free = graph_.inSourceSegment(static_cast<int>(cell->info().order));
     }
   }
 
  private:
   // Free space is the source's side. The bias calls matter what no ray has touched.
-  void add_evidence(CellHandle cell) {
+  void add_cell(CellHandle cell) {
     constexpr double kMatterBias = 1.0;
     const CellInfo& info = cell->info();
     const double cap = config_.evidence_cap * kRayWeight;
-    const bool infinite = triangulation_.is_infinite(cell);
-    const double free = infinite ? 0.0 : std::min<double>(info.free, cap);
-    const double matter = infinite ? cap : std::min<double>(info.labels.sum(), cap);
-    graph_.addTermWeights(static_cast<int>(info.order), free, matter + kMatterBias);
-  }
-
-  void add_facets(CellHandle cell) {
+    double free = std::min<double>(info.free, cap);
+    double matter = std::min<double>(info.labels.sum(), cap) + kMatterBias;
     for (int k = 0; k < 4; ++k) {
-      const CellHandle other = cell->neighbor(k);
-      if (cell->info().order < other->info().order) {
-        const double cost =
-            config_.surface_quality_weight * kRayWeight * facet_cost(triangulation_, cell, k);
-        graph_.addEdges(static_cast<int>(cell->info().order),
-                        static_cast<int>(other->info().order),
-                        cost,
-                        cost);
+      const CellInfo& other = cell->neighbor(k)->info();
+      if (other.in_region && info.order > other.order) {
+        continue;  // the neighbour adds the facet
+      }
+      const double cost =
+          config_.surface_quality_weight * kRayWeight * facet_cost(triangulation_, cell, k);
+      if (other.in_region) {
+        graph_.addEdges(static_cast<int>(info.order), static_cast<int>(other.order), cost, cost);
+      } else {
+        (other.is_free ? free : matter) += cost;
       }
     }
+    graph_.addTermWeights(static_cast<int>(info.order), free, matter);
   }
 
-  Triangulation& triangulation_;
+  const Triangulation& triangulation_;
   const CarvingConfig& config_;
-  unsigned count_ = 0;
+  const std::vector<CellHandle>& region_;
   cv::detail::GCGraph<double> graph_;
 };
 
-void classify_by_count(Triangulation* triangulation, const CarvingConfig& config) {
-  const auto threshold =
-      static_cast<Weight>(std::lround(std::max(1.0, config.free_space_threshold * kRayWeight)));
-  std::uint32_t order = 0;
-  for (const CellHandle cell : triangulation->all_cell_handles()) {
-    cell->info().order = order++;
-    cell->info().is_free = is_free_by_count(*triangulation, cell, threshold);
+/// The changed cells and what surrounds them. Infinite cells stay matter.
+std::vector<CellHandle> changed_region(Triangulation* triangulation, int rings) {
+  std::vector<CellHandle> region;
+  for (const CellHandle cell : triangulation->finite_cell_handles()) {
+    if (cell->info().is_changed) {
+      cell->info().is_changed = false;
+      cell->info().in_region = true;
+      region.push_back(cell);
+    }
   }
+  std::size_t begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = region.size();
+    for (; begin < end; ++begin) {
+      for (int k = 0; k < 4; ++k) {
+        const CellHandle next = region[begin]->neighbor(k);
+        if (!next->info().in_region && !triangulation->is_infinite(next)) {
+          next->info().in_region = true;
+          region.push_back(next);
+        }
+      }
+    }
+  }
+  return region;
 }
 
 }  // namespace
 
-std::vector<CellHandle> classify_cells(Triangulation* triangulation, const CarvingConfig& config) {
-  if (config.extraction == Extraction::kCount) {
-    classify_by_count(triangulation, config);
-  } else {
-    CellCut(triangulation, config).solve();
+void classify_cells(Triangulation* triangulation, const CarvingConfig& config) {
+  constexpr int kRings = 3;  // farther than that a changed cell hardly ever turns another one
+  const bool counts = config.extraction == Extraction::kCount;
+  const std::vector<CellHandle> region = changed_region(triangulation, counts ? 0 : kRings);
+  if (region.empty()) {
+    return;
   }
-  std::vector<CellHandle> by_weight;
-  for (const CellHandle cell : triangulation->finite_cell_handles()) {
-    if (cell->info().is_free) {
-      by_weight.push_back(cell);
+  if (counts) {
+    const auto threshold =
+        static_cast<Weight>(std::lround(std::max(1.0, config.free_space_threshold * kRayWeight)));
+    for (const CellHandle cell : region) {
+      cell->info().is_free = is_free_by_count(cell->info(), threshold);
     }
+  } else {
+    CellCut(*triangulation, config, region).solve();
   }
-  std::sort(by_weight.begin(), by_weight.end(), [](CellHandle a, CellHandle b) {
-    return a->info().free != b->info().free ? a->info().free > b->info().free
-                                            : a->info().order < b->info().order;
-  });
-  return by_weight;
+  for (const CellHandle cell : region) {
+    cell->info().in_region = false;
+  }
 }
 
 }  // namespace facet_mapping::carving

@@ -4,15 +4,14 @@
 // Which cells does the evidence call free?
 #pragma once
 
-#include <vector>
-
 #include "carving/triangulation.h"
 
 #include "facet_mapping/carving/space_carver.h"
 
 namespace facet_mapping::carving {
 
-/// Sets is_free and order of every cell; returns the free cells, most evidence first.
-std::vector<CellHandle> classify_cells(Triangulation* triangulation, const CarvingConfig& config);
+/// Brings is_free up to date where evidence changed (is_changed, which it clears). The cut is made
+/// over the changed cells and those within a few facets of them; the others keep their side.
+void classify_cells(Triangulation* triangulation, const CarvingConfig& config);
 
 }  // namespace facet_mapping::carving

@@ -27,6 +27,18 @@ void LabelEvidence::add(Label label, Weight weight) {
   }
 }
 
+void LabelEvidence::subtract(Label label, Weight weight) {
+  const auto at =
+      std::lower_bound(weights_.begin(), weights_.end(), std::make_pair(label, Weight{0}));
+  if (at == weights_.end() || at->first != label) {
+    return;
+  }
+  at->second -= std::min(at->second, weight);
+  if (at->second == 0) {
+    weights_.erase(at);
+  }
+}
+
 void LabelEvidence::add(const LabelEvidence& other) {
   for (const auto& [label, weight] : other.weights_) {
     add(label, weight);

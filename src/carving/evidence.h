@@ -26,6 +26,8 @@ class LabelEvidence {
  public:
   void add(Label label, Weight weight);
   void add(const LabelEvidence& other);
+  /// Takes back what add() added; a class without evidence left is forgotten.
+  void subtract(Label label, Weight weight);
 
   bool empty() const { return weights_.empty(); }
   Weight largest() const;
@@ -35,6 +37,8 @@ class LabelEvidence {
   /// (best - second best) / sum, 0 without evidence.
   float margin() const;
   const std::vector<std::pair<Label, Weight>>& weights() const { return weights_; }
+  /// On the heap.
+  std::size_t bytes() const { return weights_.capacity() * sizeof(weights_[0]); }
 
  private:
   std::vector<std::pair<Label, Weight>> weights_;

@@ -5,36 +5,100 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <iterator>
 
 namespace facet_mapping::carving {
 
-FreeSpaceGrowth::FreeSpaceGrowth(Triangulation* triangulation, std::vector<CellHandle> free_cells)
-    : triangulation_(*triangulation), by_weight_(std::move(free_cells)) {}
-
-GrowthStats FreeSpaceGrowth::grow() {
-  stats_ = {};
-  clear();
-  // A cell that touches nothing may start a region of its own; most evidence goes first.
-  for (const CellHandle seed : by_weight_) {
-    if (!seed->info().in_free_set && can_add(seed)) {
-      queue_.push({seed->info().free, seed->info().order, seed});
-      grow_single_cells();
-    }
-  }
-  while (add_around_vertices()) {
-  }
-  return stats_;
+GrowthStats FreeSpaceGrowth::update() {
+  taken_out_.clear();
+  take_evidence();
+  mend();
+  grow();
+  return count();
 }
 
-void FreeSpaceGrowth::clear() {
-  stats_.free_cells = by_weight_.size();
-  for (const VertexHandle vertex : triangulation_.all_vertex_handles()) {
-    vertex->info().free_cells = 0;
+// A cell that was taken out earlier has its chance again where its surroundings changed.
+void FreeSpaceGrowth::take_evidence() {
+  for (const CellHandle cell : triangulation_.finite_cell_handles()) {
+    const CellInfo& info = cell->info();
+    if (info.is_free == info.in_free_set) {
+      continue;
+    }
+    bool is_dirty = info.in_free_set;  // free no longer
+    for (int k = 0; k < 4; ++k) {
+      is_dirty |= cell->vertex(k)->info().is_dirty;
+    }
+    if (is_dirty) {
+      set_free(cell, info.is_free);
+      for (int k = 0; k < 4; ++k) {
+        cell->vertex(k)->info().must_check = true;
+      }
+    }
   }
-  for (const CellHandle cell : triangulation_.all_cell_handles()) {
-    cell->info().in_free_set = false;
+  for (const VertexHandle vertex : triangulation_.finite_vertex_handles()) {
+    VertexInfo& info = vertex->info();
+    if (info.is_dirty || info.must_check) {
+      unchecked_.push_back(vertex);
+    }
+    info.is_dirty = false;
+    info.must_check = false;
   }
+}
+
+// Cells go until the boundary passes every vertex at most once.
+void FreeSpaceGrowth::mend() {
+  while (!unchecked_.empty()) {
+    const VertexHandle vertex = unchecked_.back();
+    unchecked_.pop_back();
+    if (vertex->info().free_cells > 0) {
+      mend_at(vertex);
+    }
+  }
+}
+
+void FreeSpaceGrowth::mend_at(VertexHandle vertex) {
+  for (link_.visit(triangulation_, vertex); !link_.is_manifold();
+       link_.visit(triangulation_, vertex)) {
+    for (const CellHandle cell : link_.cells_to_take_out()) {
+      take_out(cell);
+    }
+  }
+}
+
+void FreeSpaceGrowth::take_out(CellHandle cell) {
+  set_free(cell, false);
+  taken_out_.push_back(cell);
+  for (int k = 0; k < 4; ++k) {
+    if (!triangulation_.is_infinite(cell->vertex(k))) {
+      unchecked_.push_back(cell->vertex(k));
+    }
+  }
+}
+
+// What went for one vertex's sake may be had again now that the others are mended.
+void FreeSpaceGrowth::grow() {
+  std::uint32_t order = 0;
+  for (const CellHandle cell : taken_out_) {
+    cell->info().order = order++;
+    push(cell);
+  }
+  grow_single_cells();
+  for (const CellHandle cell : taken_out_) {
+    for (int k = 0; k < 4 && !cell->info().in_free_set; ++k) {
+      if (try_add_around(cell->vertex(k))) {
+        grow_single_cells();
+      }
+    }
+  }
+}
+
+GrowthStats FreeSpaceGrowth::count() const {
+  GrowthStats stats;
+  for (const CellHandle cell : triangulation_.finite_cell_handles()) {
+    stats.free_cells += cell->info().is_free ? 1 : 0;
+    stats.reached_cells += cell->info().in_free_set ? 1 : 0;
+  }
+  return stats;
 }
 
 void FreeSpaceGrowth::grow_single_cells() {
@@ -52,21 +116,9 @@ void FreeSpaceGrowth::push_neighbours(CellHandle cell) {
   for (int k = 0; k < 4; ++k) {
     const CellHandle next = cell->neighbor(k);
     if (next->info().is_free && !next->info().in_free_set) {
-      queue_.push({next->info().free, next->info().order, next});
+      push(next);
     }
   }
-}
-
-void FreeSpaceGrowth::set_free(CellHandle cell, bool free) {
-  if (cell->info().in_free_set == free) {
-    return;
-  }
-  cell->info().in_free_set = free;
-  for (int k = 0; k < 4; ++k) {
-    VertexInfo& vertex = cell->vertex(k)->info();
-    vertex.free_cells = free ? vertex.free_cells + 1 : vertex.free_cells - 1;
-  }
-  stats_.reached_cells = free ? stats_.reached_cells + 1 : stats_.reached_cells - 1;
 }
 
 bool FreeSpaceGrowth::edge_touches_free_set(CellHandle cell, int i, int j) const {
@@ -108,21 +160,8 @@ bool FreeSpaceGrowth::can_add(CellHandle cell) const {
   }
 }
 
-// Cells left over lie where adding any one of them would pinch the surface; all of those around a
-// vertex together may not, and may change the genus (Lhuillier & Yu 2013).
-bool FreeSpaceGrowth::add_around_vertices() {
-  bool added = false;
-  for (const CellHandle cell : by_weight_) {
-    for (int k = 0; k < 4 && !cell->info().in_free_set; ++k) {
-      if (try_add_around(cell->vertex(k))) {
-        added = true;
-        grow_single_cells();
-      }
-    }
-  }
-  return added;
-}
-
+// Adding any one of the cells left over would pinch the surface; all of those around a vertex
+// together may not, and may change the genus (Lhuillier & Yu 2013).
 bool FreeSpaceGrowth::try_add_around(VertexHandle vertex) {
   std::vector<CellHandle> incident;
   triangulation_.incident_cells(vertex, std::back_inserter(incident));
@@ -141,8 +180,10 @@ bool FreeSpaceGrowth::try_add_around(VertexHandle vertex) {
   }
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  const bool manifold = std::all_of(
-      touched.begin(), touched.end(), [this](VertexHandle v) { return is_manifold_at(v); });
+  const bool manifold = std::all_of(touched.begin(), touched.end(), [this](VertexHandle v) {
+    link_.visit(triangulation_, v);
+    return link_.is_manifold();
+  });
   for (const CellHandle cell : incident) {
     if (manifold) {
       push_neighbours(cell);
@@ -151,44 +192,6 @@ bool FreeSpaceGrowth::try_add_around(VertexHandle vertex) {
     }
   }
   return manifold && !incident.empty();
-}
-
-// The surface passes a vertex as one fan iff, in the vertex's link (a sphere), both the free cells
-// and the others are connected over shared facets: their border is then a single closed curve.
-bool FreeSpaceGrowth::is_manifold_at(VertexHandle vertex) const {
-  std::vector<CellHandle> incident;
-  triangulation_.incident_cells(vertex, std::back_inserter(incident));
-  std::sort(incident.begin(), incident.end());
-  std::vector<bool> seen(incident.size(), false);
-  std::array<int, 2> regions{};
-  std::vector<std::size_t> stack;
-  for (std::size_t start = 0; start < incident.size(); ++start) {
-    if (seen[start]) {
-      continue;
-    }
-    const bool free = incident[start]->info().in_free_set;
-    if (++regions[free ? 1 : 0] > 1) {
-      return false;
-    }
-    stack.push_back(start);
-    seen[start] = true;
-    while (!stack.empty()) {
-      const CellHandle cell = incident[stack.back()];
-      stack.pop_back();
-      for (int k = 0; k < 4; ++k) {
-        const CellHandle next = cell->neighbor(k);
-        if (cell->vertex(k) == vertex || next->info().in_free_set != free) {
-          continue;
-        }
-        const auto at = std::lower_bound(incident.begin(), incident.end(), next) - incident.begin();
-        if (!seen[at]) {
-          seen[at] = true;
-          stack.push_back(at);
-        }
-      }
-    }
-  }
-  return true;
 }
 
 }  // namespace facet_mapping::carving

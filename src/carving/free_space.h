@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Growing the manifold free space: region growing in order of evidence under the constraint that
-// its boundary stays a closed 2-manifold (Litvinov & Lhuillier 2014; Romanoni & Matteucci 2015).
+// The manifold free space: as many free cells as can be had while their boundary is a closed
+// 2-manifold (constraint and tests after Litvinov & Lhuillier 2014; Romanoni & Matteucci 2015).
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "carving/triangulation.h"
+#include "carving/vertex_link.h"
 
 namespace facet_mapping::carving {
 
@@ -18,13 +19,17 @@ struct GrowthStats {
   std::size_t reached_cells = 0;
 };
 
+/// Brings the manifold free space (in_free_set of the cells, free_cells of the vertices) up to
+/// date. Around the vertices marked dirty it begins with all free cells, takes out the few that
+/// keep the boundary from being a manifold, and grows back what can be had (single cells, then all
+/// around a vertex at once, which may change the genus). Growing from one seed, as the paper's
+/// predecessors do, leaves several times as many free cells unreached, and cannot be done again for
+/// a part.
 class FreeSpaceGrowth {
  public:
-  /// `free_cells`: the cells with is_free set, most evidence first.
-  FreeSpaceGrowth(Triangulation* triangulation, std::vector<CellHandle> free_cells);
+  explicit FreeSpaceGrowth(Triangulation* triangulation) : triangulation_(*triangulation) {}
 
-  /// Sets in_free_set of every cell and free_cells of every vertex.
-  GrowthStats grow();
+  GrowthStats update();
 
  private:
   struct Candidate {
@@ -36,20 +41,24 @@ class FreeSpaceGrowth {
     }
   };
 
-  void clear();
+  void take_evidence();
+  void mend();
+  void mend_at(VertexHandle vertex);
+  void take_out(CellHandle cell);
+  void grow();
   void grow_single_cells();
-  bool add_around_vertices();
   bool can_add(CellHandle cell) const;
   bool edge_touches_free_set(CellHandle cell, int i, int j) const;
   bool try_add_around(VertexHandle vertex);
-  bool is_manifold_at(VertexHandle vertex) const;
-  void set_free(CellHandle cell, bool free);
+  void push(CellHandle cell) { queue_.push({cell->info().free, cell->info().order, cell}); }
   void push_neighbours(CellHandle cell);
+  GrowthStats count() const;
 
   Triangulation& triangulation_;
+  VertexLink link_;
   std::priority_queue<Candidate> queue_;
-  std::vector<CellHandle> by_weight_;  ///< free cells, most evidence first
-  GrowthStats stats_;
+  std::vector<VertexHandle> unchecked_;
+  std::vector<CellHandle> taken_out_;
 };
 
 }  // namespace facet_mapping::carving

@@ -3,63 +3,72 @@
 
 #include "carving/point_index.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace facet_mapping::carving {
-namespace {
 
-constexpr int kLevels = 8;
+PointIndex::PointIndex(double min_reach_m, double max_reach_m) {
+  constexpr double kStep = 4.0;
+  for (double spacing = min_reach_m; levels_.empty() || spacing < kStep * max_reach_m;
+       spacing *= kStep) {
+    levels_.push_back({std::min(spacing, max_reach_m), {}});
+  }
+}
 
-using GridCell = Eigen::Matrix<std::int64_t, 3, 1>;
-
-GridCell grid_cell(const Eigen::Vector3d& point, double spacing_m) {
+PointIndex::GridCell PointIndex::grid_cell(const Eigen::Vector3d& point, double spacing_m) {
   return (point / spacing_m).array().floor().cast<std::int64_t>();
 }
 
-// 21 bits per axis: unique within two million cells of the origin.
-std::uint64_t key(const GridCell& cell) {
+// 21 bits per axis: cells two million cells apart share a key, which costs time, not correctness.
+std::uint64_t PointIndex::key(const GridCell& cell) {
   constexpr std::uint64_t kMask = (1ULL << 21U) - 1U;
   return (static_cast<std::uint64_t>(cell.x()) & kMask) |
          (static_cast<std::uint64_t>(cell.y()) & kMask) << 21U |
          (static_cast<std::uint64_t>(cell.z()) & kMask) << 42U;
 }
 
-}  // namespace
-
-PointIndex::PointIndex(double min_spacing_m) {
-  for (int level = 0; level < kLevels; ++level) {
-    levels_.push_back({std::ldexp(min_spacing_m, level), {}});
-  }
-}
-
-std::int64_t PointIndex::find_near(const Eigen::Vector3d& point, double spacing_m) const {
+const PointIndex::Level& PointIndex::level_for(double reach_m) const {
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && levels_[level].spacing_m < spacing_m) {
+  while (level + 1 < levels_.size() && levels_[level].spacing_m < reach_m) {
     ++level;
   }
-  const Level& grid = levels_[level];
-  const GridCell center = grid_cell(point, grid.spacing_m);
-  double nearest = grid.spacing_m;
-  std::int64_t found = -1;
-  for (int k = 0; k < 27; ++k) {
-    const GridCell cell = center + GridCell(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    const auto entry = grid.cells.find(key(cell));
-    if (entry == grid.cells.end()) {
-      continue;
-    }
-    const double distance = (entry->second.point - point).norm();
-    if (distance < nearest) {
-      nearest = distance;
-      found = entry->second.id;
-    }
-  }
-  return found;
+  return levels_[level];
 }
 
 void PointIndex::insert(const Eigen::Vector3d& point, std::uint32_t id) {
   for (Level& level : levels_) {
-    level.cells.try_emplace(key(grid_cell(point, level.spacing_m)), Entry{point, id});
+    level.cells[key(grid_cell(point, level.spacing_m))].push_back({point, id});
   }
+}
+
+void PointIndex::erase(const Eigen::Vector3d& point, std::uint32_t id) {
+  for (Level& level : levels_) {
+    const auto cell = level.cells.find(key(grid_cell(point, level.spacing_m)));
+    if (cell == level.cells.end()) {
+      continue;
+    }
+    std::vector<Entry>& entries = cell->second;
+    entries.erase(
+        std::remove_if(
+            entries.begin(), entries.end(), [id](const Entry& entry) { return entry.id == id; }),
+        entries.end());
+    if (entries.empty()) {
+      level.cells.erase(cell);
+    }
+  }
+}
+
+std::size_t PointIndex::bytes() const {
+  constexpr std::size_t kNode = 64;  // a hash node with its vector, as the allocator rounds it
+  constexpr std::size_t kBlock = 16;
+  std::size_t bytes = 0;
+  for (const Level& level : levels_) {
+    bytes += level.cells.bucket_count() * sizeof(void*) + level.cells.size() * kNode;
+    for (const auto& [key, entries] : level.cells) {
+      bytes += entries.capacity() * sizeof(Entry) + kBlock;
+    }
+  }
+  return bytes;
 }
 
 }  // namespace facet_mapping::carving

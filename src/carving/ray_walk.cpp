@@ -64,7 +64,8 @@ void RayWalk::enter_from_vertex(VertexHandle start) {
     }
     cell_ = cell_->neighbor(across);
     if (triangulation_.is_infinite(cell_)) {
-      break;  // the segment leaves the convex hull at once
+      left_hull_ = true;
+      break;
     }
   }
   done_ = true;
@@ -124,11 +125,12 @@ void RayWalk::advance() {
   }
   const CellHandle next = cell_->neighbor(exit_);
   const int entry = next->index(cell_);
+  cell_ = next;
   if (triangulation_.is_infinite(next)) {
+    left_hull_ = true;
     done_ = true;
     return;
   }
-  cell_ = next;
   choose_exit(entry);
   check_target();
 }

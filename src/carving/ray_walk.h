@@ -16,8 +16,11 @@ class RayWalk {
  public:
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
 
-  /// The present cell; invalid once done().
+  /// The present cell; once done(), the last one, or the infinite cell if the segment left the
+  /// hull.
   CellHandle cell() const { return cell_; }
+  /// True once the segment has left the convex hull: its rest crosses no finite cell.
+  bool left_hull() const { return left_hull_; }
   /// True at the end of the segment or where it leaves the convex hull.
   bool done() const { return done_; }
   /// True if the target lies inside the present cell.
@@ -43,6 +46,7 @@ class RayWalk {
   int steps_ = 0;
   bool at_target_ = false;
   bool done_ = false;
+  bool left_hull_ = false;
 };
 
 /// Distance from `source` along the segment to the plane of a facet; the facet's points are taken

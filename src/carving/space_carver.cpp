@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/carving/space_carver.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 
 #include "carving/classification.h"
+#include "carving/evidence_field.h"
 #include "carving/free_space.h"
-#include "carving/point_index.h"
-#include "carving/ray_walk.h"
+#include "carving/rays.h"
+#include "carving/sites.h"
 #include "carving/steiner_grid.h"
 #include "carving/surface.h"
-#include "carving/triangulation.h"
-#include <tbb/parallel_for.h>
 
 namespace facet_mapping {
 
@@ -21,35 +22,15 @@ using namespace carving;  // NOLINT(google-build-using-namespace): this file is 
 
 namespace {
 
-/// Points this many standard deviations apart along the ray are one point.
-constexpr double kSpacingInSigmas = 0.5;
-constexpr double kJitterM = 1e-7;
-
-Point to_point(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 /// Moves a sensor position by far less than it is known, so that no ray runs exactly through an
 /// edge or a vertex (as happens to a sensor at the origin of round coordinates).
-Point general_position(const Eigen::Vector3d& center, std::size_t index, double amount_m) {
-  const double angle = 2.399963 * static_cast<double>(index + 1);  // the golden angle
-  const Eigen::Vector3d offset(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
-  return to_point(center + amount_m * offset);
+Eigen::Vector3d general_position(const Eigen::Vector3d& center) {
+  constexpr double kJitterM = 1e-7;
+  const Eigen::Vector3d frequency(12.9898, 78.233, 37.719);
+  const double angle = 43.758 * std::sin(center.dot(frequency)) + center.sum();
+  return center +
+         kJitterM * Eigen::Vector3d(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
 }
-
-struct Ray {
-  VertexHandle vertex;
-  std::uint32_t center;
-  float sigma;
-  Label label;
-};
-
-/// One cell that a ray crosses; `front` tells free-space evidence from label evidence.
-struct Hit {
-  CellHandle cell;
-  Weight weight;
-  bool front;
-};
 
 void check_frame(const CarvingFrame& frame) {
   if (!frame.center.allFinite()) {
@@ -86,228 +67,186 @@ class SpaceCarver::Impl {
  public:
   explicit Impl(const CarvingConfig& config)
       : config_(config),
-        index_(config.min_point_spacing_m),
-        steiner_(config.steiner_spacing_m, config.steiner_reach_m) {}
+        sites_(&rays_, config.min_point_spacing_m),
+        steiner_(config.steiner_spacing_m, config.steiner_reach_m, config.steiner_clearance_m),
+        field_(&rays_, {config.behind_distance_m, config.evidence_cap}) {}
 
-  void insert(const std::vector<CarvingFrame>& frames);
+  std::vector<FrameId> update(const std::vector<FrameId>& removed,
+                              const std::vector<CarvingFrame>& added);
+  void forget_beyond(const Eigen::Vector3d& center, double radius_m);
+  bool holds(FrameId id) const { return rays_.frames.contains(id) && rays_.frames[id].live > 0; }
   CarvedSurface extract_surface();
   CarvingStats stats() const;
+  std::size_t bytes() const;
   std::vector<CellEvidence> evidence() const;
 
  private:
-  void insert_frame(const CarvingFrame& frame);
-  VertexHandle insert_vertex(const Eigen::Vector3d& point, bool steiner);
-  VertexHandle insert_in_cells(const Point& point);
-  void release_rays(CellHandle cell);
-  void trace_all(const std::vector<std::uint32_t>& ids);
-  std::vector<Hit> trace(const Ray& ray) const;
-  void trace_front(const Ray& ray, std::vector<Hit>* hits) const;
-  void trace_behind(const Ray& ray, std::vector<Hit>* hits) const;
-  void apply(std::uint32_t id, const std::vector<Hit>& hits);
+  std::vector<RayId> take_out(const std::vector<FrameId>& ids);
+  FrameId put_in(const CarvingFrame& frame);
+  void note_sites(const SiteChanges& changes, FieldChange* change);
+  void note_steiner(FieldChange* change);
 
   CarvingConfig config_;
-  Triangulation triangulation_;
-  PointIndex index_;
+  RayStore rays_;
+  Sites sites_;
   SteinerGrid steiner_;
-  std::vector<VertexHandle> vertices_;  // by id
-  std::vector<Point> centers_;
-  std::vector<Ray> rays_;
-  std::vector<std::uint32_t> ray_epoch_;  // epoch in which the ray was last put up for tracing
-  std::vector<std::uint32_t> retrace_;    // rays to trace at the end of this batch
-  std::size_t first_new_ray_ = 0;
-  std::uint32_t epoch_ = 0;
-  CellHandle hint_;
+  EvidenceField field_;
   GrowthStats growth_;
 };
 
-void SpaceCarver::Impl::insert(const std::vector<CarvingFrame>& frames) {
-  for (const CarvingFrame& frame : frames) {
-    check_frame(frame);
+std::vector<FrameId> SpaceCarver::Impl::update(const std::vector<FrameId>& removed,
+                                               const std::vector<CarvingFrame>& added) {
+  std::for_each(added.begin(), added.end(), check_frame);
+  const std::vector<RayId> gone = take_out(removed);
+  std::vector<FrameId> ids;
+  for (const CarvingFrame& frame : added) {
+    ids.push_back(put_in(frame));
   }
-  ++epoch_;
-  if (retrace_.empty()) {
-    first_new_ray_ = rays_.size();
+  FieldChange change;
+  const SiteChanges changes = sites_.take_changes();
+  note_sites(changes, &change);
+  note_steiner(&change);
+  field_.apply(change);
+  sites_.drop(change.removed);
+  for (const RayId ray : gone) {
+    rays_.erase(ray);
   }
-  for (const CarvingFrame& frame : frames) {
-    insert_frame(frame);
-  }
-  if (triangulation_.dimension() == 3) {
-    trace_all(retrace_);
-    retrace_.clear();
-  }
+  return ids;
 }
 
-void SpaceCarver::Impl::insert_frame(const CarvingFrame& frame) {
-  for (const Eigen::Vector3d& node : steiner_.take_around(frame.center)) {
-    if (index_.find_near(node, config_.steiner_clearance_m) < 0) {
-      insert_vertex(node, true);
+std::vector<RayId> SpaceCarver::Impl::take_out(const std::vector<FrameId>& ids) {
+  std::vector<RayId> gone;
+  for (const FrameId id : std::set<FrameId>(ids.begin(), ids.end())) {
+    if (!rays_.frames.contains(id)) {
+      continue;
+    }
+    const RayFrame& frame = rays_.frames[id];
+    steiner_.remove_sensor(frame.center);
+    for (RayId ray = frame.first; ray < frame.first + frame.count; ++ray) {
+      if (rays_.rays.contains(ray)) {
+        gone.push_back(ray);
+      }
+    }
+    if (frame.count == 0) {
+      rays_.frames.erase(id);
     }
   }
-  centers_.push_back(general_position(frame.center, centers_.size(), kJitterM));
-  for (const CarvingFrame::Ray& ray : frame.rays) {
-    const double spacing =
-        std::max(config_.min_point_spacing_m, kSpacingInSigmas * static_cast<double>(ray.sigma));
-    const std::int64_t near = index_.find_near(ray.point, spacing);
-    const VertexHandle vertex = near >= 0 ? vertices_[near] : insert_vertex(ray.point, false);
-    ++vertex->info().rays;
-    if (ray.label != kUnlabelled) {
-      vertex->info().labels.add(ray.label, kRayWeight);
+  std::sort(gone.begin(), gone.end());
+  sites_.remove(gone);
+  return gone;
+}
+
+FrameId SpaceCarver::Impl::put_in(const CarvingFrame& frame) {
+  RayFrame record;
+  record.center = frame.center;
+  record.eye = general_position(frame.center);
+  record.count = static_cast<std::uint32_t>(frame.rays.size());
+  record.live = record.count;
+  const FrameId id = rays_.frames.push(record);
+  steiner_.add_sensor(frame.center);
+  for (std::size_t k = 0; k < frame.rays.size(); ++k) {
+    const CarvingFrame::Ray& given = frame.rays[k];
+    Ray ray;
+    ray.offset = (given.point - frame.center).cast<float>();
+    ray.sigma = given.sigma;
+    ray.label = given.label;
+    ray.frame = id;
+    const RayId ray_id = rays_.rays.push(ray);
+    if (k == 0) {
+      rays_.frames[id].first = ray_id;
     }
-    retrace_.push_back(static_cast<std::uint32_t>(rays_.size()));
-    rays_.push_back(
-        {vertex, static_cast<std::uint32_t>(centers_.size() - 1), ray.sigma, ray.label});
-    ray_epoch_.push_back(epoch_);
+    sites_.add(ray_id);
   }
+  return id;
 }
 
-VertexHandle SpaceCarver::Impl::insert_vertex(const Eigen::Vector3d& point, bool steiner) {
-  const Point p = to_point(point);
-  const VertexHandle vertex =
-      triangulation_.dimension() == 3 ? insert_in_cells(p) : triangulation_.insert(p);
-  if (vertices_.size() < triangulation_.number_of_vertices()) {  // not a point that was there
-    vertex->info().id = static_cast<std::uint32_t>(vertices_.size());
-    vertex->info().steiner = steiner;
-    vertices_.push_back(vertex);
-    if (!steiner) {
-      index_.insert(point, vertex->info().id);
+void SpaceCarver::Impl::note_sites(const SiteChanges& changes, FieldChange* change) {
+  for (const SiteChanges::Switch& ray : changes.switched) {
+    if (ray.from != kNoId) {
+      change->withdrawn.push_back({ray.ray, ray.from});
     }
-  } else if (!steiner) {
-    vertex->info().steiner = false;
-  }
-  return vertex;
-}
-
-VertexHandle SpaceCarver::Impl::insert_in_cells(const Point& point) {
-  Triangulation::Locate_type type{};
-  int i = 0;
-  int j = 0;
-  const CellHandle located = triangulation_.locate(point, type, i, j, hint_);
-  if (type == Triangulation::VERTEX) {
-    return located->vertex(i);
-  }
-  std::vector<CellHandle> conflicts;
-  std::vector<Triangulation::Facet> border;
-  triangulation_.find_conflicts(
-      point, located, std::back_inserter(border), std::back_inserter(conflicts));
-  for (const CellHandle cell : conflicts) {
-    release_rays(cell);
-  }
-  const VertexHandle vertex = triangulation_.insert_in_hole(
-      point, conflicts.begin(), conflicts.end(), border.front().first, border.front().second);
-  std::vector<CellHandle> created;
-  triangulation_.incident_cells(vertex, std::back_inserter(created));
-  for (const CellHandle cell : created) {
-    cell->info().epoch = epoch_;
-  }
-  hint_ = vertex->cell();
-  return vertex;
-}
-
-void SpaceCarver::Impl::release_rays(CellHandle cell) {
-  for (const std::uint32_t id : cell->info().rays) {
-    if (ray_epoch_[id] != epoch_) {
-      ray_epoch_[id] = epoch_;
-      retrace_.push_back(id);
+    if (ray.to != kNoId) {
+      change->attached.push_back({ray.ray, ray.to});
     }
   }
-}
-
-void SpaceCarver::Impl::trace_all(const std::vector<std::uint32_t>& ids) {
-  constexpr std::size_t kBlock = 2048;  // bounds the memory of the hits waiting to be applied
-  std::vector<std::vector<Hit>> hits(kBlock);
-  for (std::size_t begin = 0; begin < ids.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, ids.size() - begin);
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t k) { hits[k] = trace(rays_[ids[begin + k]]); });
-    for (std::size_t k = 0; k < count; ++k) {
-      apply(ids[begin + k], hits[k]);
-    }
+  for (const SiteId site : changes.removed) {
+    steiner_.remove_point(sites_[site].point);
+    change->removed.push_back(site);
+  }
+  for (const SiteId site : changes.added) {
+    steiner_.add_point(sites_[site].point);
+    change->added.push_back({site, sites_[site].point, false});
   }
 }
 
-std::vector<Hit> SpaceCarver::Impl::trace(const Ray& ray) const {
-  std::vector<Hit> hits;
-  hits.reserve(128);
-  trace_front(ray, &hits);
-  if (ray.label != kUnlabelled) {
-    trace_behind(ray, &hits);
-  }
-  return hits;
-}
-
-void SpaceCarver::Impl::trace_front(const Ray& ray, std::vector<Hit>* hits) const {
-  const Point& source = ray.vertex->point();
-  const Point& target = centers_[ray.center];
-  const double length = std::sqrt(CGAL::squared_distance(source, target));
-  Weight weight = 0;
-  for (RayWalk walk(triangulation_, ray.vertex, target); !walk.done(); walk.advance()) {
-    if (weight != kRayWeight) {
-      const double reach = walk.at_target()
-                               ? length
-                               : distance_to_facet(walk.cell(), walk.exit_facet(), source, target);
-      weight = soft_weight(reach, ray.sigma);
-    }
-    hits->push_back({walk.cell(), weight, true});
-  }
-}
-
-void SpaceCarver::Impl::trace_behind(const Ray& ray, std::vector<Hit>* hits) const {
-  const Point& source = ray.vertex->point();
-  const Kernel::Vector_3 away = source - centers_[ray.center];
-  const double length = std::sqrt(away.squared_length());
-  if (length == 0.0) {
-    return;
-  }
-  const Point target = source + away * (config_.behind_distance_m / length);
-  for (RayWalk walk(triangulation_, ray.vertex, target); !walk.done(); walk.advance()) {
-    hits->push_back({walk.cell(), kRayWeight, false});
-  }
-}
-
-void SpaceCarver::Impl::apply(std::uint32_t id, const std::vector<Hit>& hits) {
-  const bool is_new = id >= first_new_ray_;
-  for (const Hit& hit : hits) {
-    CellInfo& cell = hit.cell->info();
-    if (!is_new && cell.epoch != epoch_) {
-      continue;  // the cell is older than this batch and has this ray's evidence already
-    }
-    if (hit.front) {
-      cell.free += hit.weight;
+void SpaceCarver::Impl::note_steiner(FieldChange* change) {
+  for (const SteinerGrid::Wish& wish : steiner_.take_wishes()) {
+    if (wish.site != kNoId) {
+      steiner_.set_site(wish.key, kNoId);
+      sites_.remove_extra(wish.site);
+      change->removed.push_back(wish.site);
     } else {
-      cell.labels.add(rays_[id].label, hit.weight);
+      const SiteId site = sites_.add_extra(wish.point);
+      steiner_.set_site(wish.key, site);
+      change->added.push_back({site, wish.point, true});
     }
-    cell.rays.push_back(id);
   }
+}
+
+void SpaceCarver::Impl::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
+  FieldChange change;
+  sites_.all().for_each_id([&](SiteId id) {
+    const Site& site = sites_[id];
+    if (site.founder != kNoId && (site.point - center).norm() > radius_m) {
+      change.removed.push_back(id);
+    }
+  });
+  for (const SiteId id : change.removed) {
+    steiner_.remove_point(sites_[id].point);
+    sites_.forget(id);
+  }
+  for (const SiteId id : steiner_.forget_beyond(center, radius_m)) {
+    change.removed.push_back(id);
+    sites_.remove_extra(id);
+  }
+  field_.apply(change);
 }
 
 CarvedSurface SpaceCarver::Impl::extract_surface() {
   growth_ = {};
-  if (triangulation_.dimension() != 3) {
+  if (!field_.is_solid()) {
     return {};
   }
-  growth_ = FreeSpaceGrowth(&triangulation_, classify_cells(&triangulation_, config_)).grow();
-  return make_surface(triangulation_, config_.max_facet_edge_m);
+  classify_cells(&field_.triangulation(), config_);
+  growth_ = FreeSpaceGrowth(&field_.triangulation()).update();
+  return make_surface(field_.triangulation(), config_.max_facet_edge_m);
 }
 
 CarvingStats SpaceCarver::Impl::stats() const {
   CarvingStats stats;
-  stats.vertices = triangulation_.number_of_vertices();
-  stats.cells = triangulation_.dimension() == 3 ? triangulation_.number_of_finite_cells() : 0;
-  stats.rays = rays_.size();
+  stats.frames = rays_.frames.size();
+  stats.vertices = field_.triangulation().number_of_vertices();
+  stats.cells = field_.is_solid() ? field_.triangulation().number_of_finite_cells() : 0;
+  stats.rays = rays_.rays.size();
   stats.free_cells = growth_.free_cells;
   stats.reached_cells = growth_.reached_cells;
   return stats;
 }
 
+std::size_t SpaceCarver::Impl::bytes() const {
+  return rays_.rays.bytes() + rays_.frames.bytes() + sites_.bytes() + steiner_.bytes() +
+         field_.bytes();
+}
+
 std::vector<CellEvidence> SpaceCarver::Impl::evidence() const {
   std::vector<CellEvidence> cells;
-  if (triangulation_.dimension() != 3) {
+  if (!field_.is_solid()) {
     return cells;
   }
   const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
-  for (const CellHandle cell : triangulation_.finite_cell_handles()) {
+  for (const CellHandle cell : field_.triangulation().finite_cell_handles()) {
     CellEvidence evidence;
     for (int k = 0; k < 4; ++k) {
       const Point& p = cell->vertex(k)->point();
@@ -336,8 +275,15 @@ SpaceCarver::~SpaceCarver() = default;
 SpaceCarver::SpaceCarver(SpaceCarver&&) noexcept = default;
 SpaceCarver& SpaceCarver::operator=(SpaceCarver&&) noexcept = default;
 
-void SpaceCarver::insert(const std::vector<CarvingFrame>& frames) {
-  impl_->insert(frames);
+std::vector<FrameId> SpaceCarver::update(const std::vector<FrameId>& removed,
+                                         const std::vector<CarvingFrame>& added) {
+  return impl_->update(removed, added);
+}
+void SpaceCarver::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
+  impl_->forget_beyond(center, radius_m);
+}
+bool SpaceCarver::holds(FrameId id) const {
+  return impl_->holds(id);
 }
 CarvedSurface SpaceCarver::extract_surface() {
   return impl_->extract_surface();
@@ -345,7 +291,9 @@ CarvedSurface SpaceCarver::extract_surface() {
 CarvingStats SpaceCarver::stats() const {
   return impl_->stats();
 }
-
+std::size_t SpaceCarver::bytes() const {
+  return impl_->bytes();
+}
 std::vector<CellEvidence> SpaceCarver::evidence() const {
   return impl_->evidence();
 }

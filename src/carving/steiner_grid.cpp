@@ -3,10 +3,14 @@
 
 #include "carving/steiner_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace facet_mapping::carving {
 namespace {
+
+constexpr unsigned kAxisBits = 21;
+constexpr std::uint64_t kAxisMask = (1ULL << kAxisBits) - 1U;
 
 std::uint64_t mix(std::uint64_t value) {  // the finaliser of splitmix64
   value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -19,9 +23,16 @@ double unit_interval(std::uint64_t hash) {
 }
 
 std::uint64_t node_key(std::int64_t x, std::int64_t y, std::int64_t z) {
-  constexpr std::uint64_t kMask = (1ULL << 21U) - 1U;
-  return (static_cast<std::uint64_t>(x) & kMask) | (static_cast<std::uint64_t>(y) & kMask) << 21U |
-         (static_cast<std::uint64_t>(z) & kMask) << 42U;
+  return (static_cast<std::uint64_t>(x) & kAxisMask) |
+         (static_cast<std::uint64_t>(y) & kAxisMask) << kAxisBits |
+         (static_cast<std::uint64_t>(z) & kAxisMask) << 2U * kAxisBits;
+}
+
+/// The coordinate of an axis, sign restored.
+double axis_value(std::uint64_t key, unsigned axis) {
+  const auto bits = static_cast<std::int64_t>(key >> (axis * kAxisBits) & kAxisMask);
+  const auto range = static_cast<std::int64_t>(kAxisMask) + 1;
+  return static_cast<double>(bits >= range / 2 ? bits - range : bits);
 }
 
 Eigen::Vector3d jitter(std::uint64_t key) {
@@ -32,27 +43,112 @@ Eigen::Vector3d jitter(std::uint64_t key) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> SteinerGrid::take_around(const Eigen::Vector3d& center) {
-  std::vector<Eigen::Vector3d> nodes;
+SteinerGrid::GridCell SteinerGrid::cell_of(const Eigen::Vector3d& point) const {
+  return (point / spacing_m_).array().floor().cast<std::int64_t>();
+}
+
+// Jitter keeps the nodes in general position, in which the triangulation and the walk are fastest.
+Eigen::Vector3d SteinerGrid::position(std::uint64_t key) const {
+  const Eigen::Vector3d corner(axis_value(key, 0), axis_value(key, 1), axis_value(key, 2));
+  return spacing_m_ * (corner + jitter(key));
+}
+
+void SteinerGrid::touch(std::uint64_t key, Node* node) {
+  if (!node->touched) {
+    node->touched = true;
+    touched_.push_back(key);
+  }
+}
+
+void SteinerGrid::count_sensor(const Eigen::Vector3d& center, int change) {
   if (spacing_m_ <= 0.0) {
-    return nodes;
+    return;
   }
   const auto reach = static_cast<std::int64_t>(std::ceil(reach_m_ / spacing_m_));
-  const Eigen::Matrix<std::int64_t, 3, 1> middle =
-      (center / spacing_m_).array().floor().cast<std::int64_t>();
+  const GridCell middle = cell_of(center);
   for (std::int64_t x = middle.x() - reach; x <= middle.x() + reach; ++x) {
     for (std::int64_t y = middle.y() - reach; y <= middle.y() + reach; ++y) {
       for (std::int64_t z = middle.z() - reach; z <= middle.z() + reach; ++z) {
         const std::uint64_t key = node_key(x, y, z);
-        const Eigen::Vector3d node =
-            spacing_m_ * (Eigen::Vector3d(x, y, z).array() + jitter(key).array()).matrix();
-        if ((node - center).norm() <= reach_m_ && taken_.insert(key).second) {
-          nodes.push_back(node);
+        if ((position(key) - center).norm() <= reach_m_) {
+          Node& node = nodes_[key];
+          node.sensors = std::max(0, node.sensors + change);
+          touch(key, &node);
         }
       }
     }
   }
-  return nodes;
+}
+
+void SteinerGrid::count_point(const Eigen::Vector3d& point, int change) {
+  if (spacing_m_ <= 0.0) {
+    return;
+  }
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(clearance_m_);
+  const GridCell low = cell_of(point - margin);
+  const GridCell high = cell_of(point + margin);
+  for (std::int64_t x = low.x(); x <= high.x(); ++x) {
+    for (std::int64_t y = low.y(); y <= high.y(); ++y) {
+      for (std::int64_t z = low.z(); z <= high.z(); ++z) {
+        const std::uint64_t key = node_key(x, y, z);
+        if ((position(key) - point).norm() < clearance_m_) {
+          Node& node = nodes_[key];
+          node.points = std::max(0, node.points + change);
+          touch(key, &node);
+        }
+      }
+    }
+  }
+}
+
+std::vector<SteinerGrid::Wish> SteinerGrid::take_wishes() {
+  std::vector<Wish> wishes;
+  std::sort(touched_.begin(), touched_.end());
+  for (const std::uint64_t key : touched_) {
+    const auto at = nodes_.find(key);
+    if (at == nodes_.end()) {
+      continue;
+    }
+    Node& node = at->second;
+    node.touched = false;
+    const bool wanted = node.sensors > 0 && node.points == 0;
+    if (wanted != (node.site != kNoId)) {
+      wishes.push_back({key, position(key), node.site});
+    } else if (node.sensors == 0 && node.points == 0) {
+      nodes_.erase(at);
+    }
+  }
+  touched_.clear();
+  return wishes;
+}
+
+void SteinerGrid::set_site(std::uint64_t key, SiteId site) {
+  Node& node = nodes_[key];
+  node.site = site;
+  if (site == kNoId && node.sensors == 0 && node.points == 0) {
+    nodes_.erase(key);
+  }
+}
+
+std::vector<SiteId> SteinerGrid::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
+  std::vector<SiteId> sites;
+  for (auto at = nodes_.begin(); at != nodes_.end();) {
+    if ((position(at->first) - center).norm() <= radius_m) {
+      ++at;
+      continue;
+    }
+    if (at->second.site != kNoId) {
+      sites.push_back(at->second.site);
+    }
+    at = nodes_.erase(at);
+  }
+  std::sort(sites.begin(), sites.end());
+  return sites;
+}
+
+std::size_t SteinerGrid::bytes() const {
+  constexpr std::size_t kNode = 48;  // a hash node as the allocator rounds it
+  return nodes_.bucket_count() * sizeof(void*) + nodes_.size() * kNode;
 }
 
 }  // namespace facet_mapping::carving

@@ -133,9 +133,84 @@ TEST(SpaceCarver, IncrementalEvidenceEqualsBatchEvidence) {
     for (const CarvingFrame& frame : frames) {
       incremental.insert({frame});
     }
-    EXPECT_EQ(incremental.evidence(), batch.evidence()) << "seed " << seed;
+    EXPECT_TRUE(incremental.evidence() == batch.evidence()) << "seed " << seed;
   }
 }
+
+/// Random insertions, removals and moves of frames, several in one batch at times.
+class RandomHistories : public testing::TestWithParam<unsigned> {
+ protected:
+  struct Held {
+    FrameId id;
+    CarvingFrame frame;
+  };
+
+  CarvingFrame random_frame() {
+    const Eigen::Vector3d center(uniform_(random_), uniform_(random_), 0.7 * uniform_(random_));
+    const int rays = static_cast<int>(random_() % 60);
+    return look_around(center, rays, 0.05 + 0.25 * std::abs(uniform_(random_)), random_());
+  }
+
+  void step(SpaceCarver* carver) {
+    std::vector<FrameId> removed;
+    std::vector<CarvingFrame> added;
+    for (unsigned k = random_() % 3; k > 0 && !held_.empty(); --k) {
+      const auto at = held_.begin() + static_cast<std::ptrdiff_t>(random_() % held_.size());
+      removed.push_back(at->id);
+      if (random_() % 2 == 0) {
+        CarvingFrame moved = at->frame;
+        const Eigen::Vector3d shift =
+            0.2 * Eigen::Vector3d(uniform_(random_), uniform_(random_), 0);
+        moved.center += shift;
+        for (CarvingFrame::Ray& ray : moved.rays) {
+          ray.point += shift;
+        }
+        added.push_back(moved);
+      }
+      held_.erase(at);
+    }
+    for (unsigned k = random_() % 3; k > 0; --k) {
+      added.push_back(random_frame());
+    }
+    const std::vector<FrameId> ids = carver->update(removed, added);
+    ASSERT_EQ(ids.size(), added.size());
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      held_.push_back({ids[k], added[k]});
+    }
+  }
+
+  std::vector<CellEvidence> batch_evidence(const CarvingConfig& config) const {
+    std::vector<CarvingFrame> frames;
+    for (const Held& held : held_) {
+      frames.push_back(held.frame);
+    }
+    SpaceCarver batch(config);
+    batch.insert(frames);
+    return batch.evidence();
+  }
+
+  std::mt19937 random_{GetParam()};
+  std::uniform_real_distribution<double> uniform_{-1.5, 1.5};
+  std::vector<Held> held_;
+};
+
+TEST_P(RandomHistories, EvidenceIsThatOfOneBatchAndTheSurfaceIsManifold) {
+  CarvingConfig config = room_config();
+  config.extraction = GetParam() % 2 == 0 ? Extraction::kGraphCut : Extraction::kCount;
+  if (GetParam() % 5 == 0) {
+    config.steiner_spacing_m = 0.0;
+  }
+  SpaceCarver carver(config);
+  for (int k = 0; k < 10; ++k) {
+    step(&carver);
+    ASSERT_TRUE(carver.evidence() == batch_evidence(config))
+        << "seed " << GetParam() << " step " << k;
+    const ManifoldReport report = check_manifold(carver.extract_surface().mesh);
+    ASSERT_TRUE(report.is_closed_manifold()) << "seed " << GetParam() << ": " << report.to_string();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomHistories, testing::Range(0U, 200U));
 
 TEST(SpaceCarver, SameInputSameMesh) {
   const auto run = [] {

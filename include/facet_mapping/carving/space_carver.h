@@ -39,6 +39,9 @@ struct CarvingConfig {
 /// Throws std::invalid_argument naming the first value out of range.
 void validate(const CarvingConfig& config);
 
+/// Of a frame in the map.
+using FrameId = std::uint32_t;
+
 /// One frame's points in the map frame, all seen from `center`.
 struct CarvingFrame {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -57,6 +60,7 @@ struct CarvedSurface {
 };
 
 struct CarvingStats {
+  std::size_t frames = 0;  ///< of which a ray is left
   std::size_t vertices = 0;
   std::size_t cells = 0;
   std::size_t rays = 0;
@@ -80,14 +84,33 @@ class SpaceCarver {
   SpaceCarver(SpaceCarver&&) noexcept;
   SpaceCarver& operator=(SpaceCarver&&) noexcept;
 
-  /// Adds points and rays; afterwards every cell's evidence is that of one batch over all rays.
-  /// Throws std::invalid_argument on coordinates that are not finite.
-  void insert(const std::vector<CarvingFrame>& frames);
+  /// Takes frames out and puts frames in, in one go. Afterwards every cell's evidence is that of
+  /// one batch over all frames that are in, in the order in which they came. Returns the ids of the
+  /// added frames (never used twice); ids that are not in the map (any more) are passed over.
+  /// Throws std::invalid_argument on coordinates that are not finite; then nothing has changed.
+  std::vector<FrameId> update(const std::vector<FrameId>& removed,
+                              const std::vector<CarvingFrame>& added);
 
-  /// The manifold surface of the present evidence: always a closed 2-manifold, or empty.
+  std::vector<FrameId> insert(const std::vector<CarvingFrame>& frames) {
+    return update({}, frames);
+  }
+  void remove(const std::vector<FrameId>& ids) { update(ids, {}); }
+
+  /// Drops all points farther than `radius_m` from `center`, with their rays. Cells farther from
+  /// what is dropped than the longest ray keep exactly the evidence that they have.
+  void forget_beyond(const Eigen::Vector3d& center, double radius_m);
+
+  /// True while a ray of the frame is in the map.
+  bool holds(FrameId id) const;
+
+  /// The manifold surface of the present evidence: always a closed 2-manifold, or empty. Looks only
+  /// at what changed since the last call.
   CarvedSurface extract_surface();
 
   CarvingStats stats() const;
+
+  /// Bytes of memory that the map holds, allocator overhead included.
+  std::size_t bytes() const;
 
   /// The evidence of all finite cells, sorted by their vertices: for tests and inspection.
   std::vector<CellEvidence> evidence() const;

@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "carving/evidence_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "carving/ray_walk.h"
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <tbb/parallel_for.h>
+
+namespace facet_mapping::carving {
+namespace {
+
+/// Sorts along a space-filling curve, so that each insertion starts near the last.
+void sort_in_space(std::vector<NewVertex>* vertices) {
+  std::vector<std::pair<Point, std::size_t>> order;
+  order.reserve(vertices->size());
+  for (const NewVertex& vertex : *vertices) {
+    order.emplace_back(to_point(vertex.point), order.size());
+  }
+  using Map = CGAL::First_of_pair_property_map<std::pair<Point, std::size_t>>;
+  CGAL::hilbert_sort(
+      order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>());
+  std::vector<NewVertex> sorted;
+  sorted.reserve(order.size());
+  for (const auto& [point, index] : order) {
+    sorted.push_back((*vertices)[index]);
+  }
+  vertices->swap(sorted);
+}
+
+}  // namespace
+
+void EvidenceField::apply(const FieldChange& change) {
+  ++epoch_;
+  const bool was_solid = is_solid();
+  if (was_solid) {
+    withdraw(change.withdrawn);
+  }
+  uncount(change.withdrawn);
+  for (const SiteId site : change.removed) {
+    remove_vertex(site);
+  }
+  const bool stayed_solid = was_solid && is_solid();
+  add_vertices(change.added);
+  attach(change.attached);
+  if (!stayed_solid) {
+    forget_evidence();
+  }
+  if (is_solid()) {
+    trace_all(retrace_);
+    retrace_.clear();
+    for (const CellHandle cell : triangulation_.all_cell_handles()) {
+      cell->info().is_new = false;
+    }
+  }
+}
+
+void EvidenceField::withdraw(const std::vector<RayEnd>& ends) {
+  constexpr std::size_t kBlock = 2048;
+  std::vector<std::vector<Hit>> hits(kBlock);
+  for (std::size_t begin = 0; begin < ends.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, ends.size() - begin);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+      const RayEnd& end = ends[begin + k];
+      hits[k] = trace(store_.rays[end.ray], end.site);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const RayEnd& end = ends[begin + k];
+      take(end.ray, hits[k]);
+    }
+  }
+}
+
+void EvidenceField::uncount(const std::vector<RayEnd>& ends) {
+  for (const RayEnd& end : ends) {
+    VertexInfo& vertex = vertices_.at(end.site)->info();
+    --vertex.rays;
+    if (store_.rays[end.ray].label != kUnlabelled) {
+      vertex.labels.subtract(store_.rays[end.ray].label, kRayWeight);
+    }
+  }
+}
+
+void EvidenceField::remove_vertex(SiteId site) {
+  const auto at = vertices_.find(site);
+  const VertexHandle vertex = at->second;
+  if (is_solid()) {
+    std::vector<CellHandle> star;
+    triangulation_.incident_cells(vertex, std::back_inserter(star));
+    for (const CellHandle cell : star) {
+      destroy(cell);
+    }
+    // Some neighbour that stays; its cell is known again after the removal.
+    const CellHandle cell = star.front();
+    const VertexHandle next = cell->vertex(cell->vertex(0) == vertex ? 1 : 0);
+    triangulation_.remove(vertex);
+    hint_ = next->cell();
+  } else {
+    triangulation_.remove(vertex);
+    hint_ = CellHandle();
+  }
+  vertices_.erase(at);
+}
+
+void EvidenceField::add_vertices(std::vector<NewVertex> vertices) {
+  sort_in_space(&vertices);
+  for (const NewVertex& added : vertices) {
+    const VertexHandle vertex = add_vertex(to_point(added.point));
+    vertex->info().id = added.site;
+    vertex->info().steiner = added.steiner;
+    vertices_[added.site] = vertex;
+  }
+}
+
+VertexHandle EvidenceField::add_vertex(const Point& point) {
+  if (!is_solid()) {
+    hint_ = CellHandle();
+    return triangulation_.insert(point);
+  }
+  Triangulation::Locate_type type{};
+  int i = 0;
+  int j = 0;
+  const CellHandle located = triangulation_.locate(point, type, i, j, hint_);
+  if (type == Triangulation::VERTEX) {  // an extra vertex in the very place: never two in one
+    constexpr double kApart = 1e-6;
+    return add_vertex(Point(point.x() + kApart, point.y() - kApart, point.z() + kApart));
+  }
+  std::vector<CellHandle> conflicts;
+  std::vector<Triangulation::Facet> border;
+  triangulation_.find_conflicts(
+      point, located, std::back_inserter(border), std::back_inserter(conflicts));
+  for (const CellHandle cell : conflicts) {
+    destroy(cell);
+  }
+  const VertexHandle vertex = triangulation_.insert_in_hole(
+      point, conflicts.begin(), conflicts.end(), border.front().first, border.front().second);
+  hint_ = vertex->cell();
+  return vertex;
+}
+
+/// The rays of a cell that is about to go must be traced again.
+void EvidenceField::destroy(CellHandle cell) {
+  set_free(cell, false);
+  mark_dirty(cell);
+  for (const RayId id : cell->info().rays) {
+    if (!store_.rays.contains(id)) {
+      continue;  // forgotten
+    }
+    Ray& ray = store_.rays[id];
+    if (ray.site != kNoId && ray.epoch != epoch_) {
+      ray.epoch = epoch_;
+      retrace_.push_back(id);
+    }
+  }
+}
+
+void EvidenceField::attach(const std::vector<RayEnd>& ends) {
+  for (const RayEnd& end : ends) {
+    Ray& ray = store_.rays[end.ray];
+    VertexInfo& vertex = vertices_.at(end.site)->info();
+    ++vertex.rays;
+    if (ray.label != kUnlabelled) {
+      vertex.labels.add(ray.label, kRayWeight);
+    }
+    ray.fresh = true;
+    if (ray.epoch != epoch_) {
+      ray.epoch = epoch_;
+      retrace_.push_back(end.ray);
+    }
+  }
+}
+
+// While all points lie in a plane there are no cells; with the first or the last of them all rays
+// are traced, or none.
+void EvidenceField::forget_evidence() {
+  retrace_.clear();
+  if (is_solid()) {
+    for (const CellHandle cell : triangulation_.all_cell_handles()) {
+      cell->info() = CellInfo{};
+    }
+  }
+  for (const VertexHandle vertex : triangulation_.all_vertex_handles()) {
+    vertex->info().free_cells = 0;
+    vertex->info().is_dirty = true;
+  }
+  store_.rays.for_each_id([this](RayId id) {
+    if (store_.rays[id].site == kNoId) {
+      return;
+    }
+    store_.rays[id].fresh = true;
+    store_.rays[id].epoch = epoch_;
+    retrace_.push_back(id);
+  });
+}
+
+void EvidenceField::trace_all(const std::vector<RayId>& ids) {
+  constexpr std::size_t kBlock = 2048;  // bounds the memory of the hits waiting to be applied
+  std::vector<std::vector<Hit>> hits(kBlock);
+  for (std::size_t begin = 0; begin < ids.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, ids.size() - begin);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+      const Ray& ray = store_.rays[ids[begin + k]];
+      hits[k] = trace(ray, ray.site);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      put(ids[begin + k], hits[k]);
+    }
+  }
+}
+
+std::vector<EvidenceField::Hit> EvidenceField::trace(const Ray& ray, SiteId site) const {
+  std::vector<Hit> hits;
+  hits.reserve(128);
+  const VertexHandle vertex = vertices_.at(site);
+  trace_front(ray, vertex, &hits);
+  if (ray.label != kUnlabelled) {
+    trace_behind(ray, vertex, &hits);
+  }
+  return hits;
+}
+
+void EvidenceField::trace_front(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const {
+  const Point& source = vertex->point();
+  const Point target = to_point(store_.frames[ray.frame].eye);
+  const double length = std::sqrt(CGAL::squared_distance(source, target));
+  Weight weight = 0;
+  RayWalk walk(triangulation_, vertex, target);
+  for (; !walk.done(); walk.advance()) {
+    if (weight != kRayWeight) {
+      const double reach = walk.at_target()
+                               ? length
+                               : distance_to_facet(walk.cell(), walk.exit_facet(), source, target);
+      weight = soft_weight(reach, ray.sigma);
+    }
+    hits->push_back({walk.cell(), weight, Hit::Part::kFront});
+  }
+  if (walk.left_hull()) {
+    hits->push_back({walk.cell(), 0, Hit::Part::kOutside});
+  }
+}
+
+void EvidenceField::trace_behind(const Ray& ray,
+                                 VertexHandle vertex,
+                                 std::vector<Hit>* hits) const {
+  const Point& source = vertex->point();
+  const Kernel::Vector_3 away = source - to_point(store_.frames[ray.frame].eye);
+  const double length = std::sqrt(away.squared_length());
+  if (length == 0.0) {
+    return;
+  }
+  const Point target = source + away * (config_.behind_distance_m / length);
+  RayWalk walk(triangulation_, vertex, target);
+  for (; !walk.done(); walk.advance()) {
+    hits->push_back({walk.cell(), kRayWeight, Hit::Part::kBehind});
+  }
+  if (walk.left_hull()) {
+    hits->push_back({walk.cell(), 0, Hit::Part::kOutside});
+  }
+}
+
+bool EvidenceField::changes_class(Weight before, Weight after) const {
+  const auto cap = static_cast<Weight>(config_.cap_rays * kRayWeight);
+  return std::min(before, cap) != std::min(after, cap);
+}
+
+void EvidenceField::put(RayId id, const std::vector<Hit>& hits) {
+  Ray& ray = store_.rays[id];
+  for (const Hit& hit : hits) {
+    CellInfo& cell = hit.cell->info();
+    if (hit.part == Hit::Part::kOutside) {  // which of several cells a ray leaves by may change
+      if (std::find(cell.rays.begin(), cell.rays.end(), id) == cell.rays.end()) {
+        cell.rays.push_back(id);
+      }
+      continue;
+    }
+    if (!ray.fresh && !cell.is_new) {
+      continue;  // the cell is older than this batch and has this ray's evidence already
+    }
+    if (hit.part == Hit::Part::kFront) {
+      cell.is_changed |= changes_class(cell.free, cell.free + hit.weight);
+      cell.free += hit.weight;
+    } else {
+      cell.labels.add(ray.label, hit.weight);
+      cell.is_changed = true;
+    }
+    cell.rays.push_back(id);
+  }
+  ray.fresh = false;
+}
+
+void EvidenceField::take(RayId id, const std::vector<Hit>& hits) {
+  for (const Hit& hit : hits) {
+    CellInfo& cell = hit.cell->info();
+    if (hit.part == Hit::Part::kFront) {
+      cell.is_changed |= changes_class(cell.free, cell.free - hit.weight);
+      cell.free -= hit.weight;
+    } else if (hit.part == Hit::Part::kBehind) {
+      cell.labels.subtract(store_.rays[id].label, hit.weight);
+      cell.is_changed = true;
+    }
+    const auto at = std::find(cell.rays.begin(), cell.rays.end(), id);
+    if (at != cell.rays.end()) {
+      *at = cell.rays.back();
+      cell.rays.pop_back();
+    }
+  }
+}
+
+std::size_t EvidenceField::bytes() const {
+  constexpr std::size_t kBlock = 16;     // what the allocator adds to a small block
+  constexpr std::size_t kMapEntry = 40;  // a node and its bucket in the map of vertices
+  const auto& tds = triangulation_.tds();
+  std::size_t bytes = tds.cells().capacity() * sizeof(Tds::Cell) +
+                      tds.vertices().capacity() * sizeof(Tds::Vertex) +
+                      vertices_.size() * kMapEntry;
+  const auto add = [&bytes](std::size_t heap) { bytes += heap == 0 ? 0 : heap + kBlock; };
+  for (auto cell = tds.cells().begin(); cell != tds.cells().end(); ++cell) {
+    add(cell->info().rays.capacity() * sizeof(RayId));
+    add(cell->info().labels.bytes());
+  }
+  for (auto vertex = tds.vertices().begin(); vertex != tds.vertices().end(); ++vertex) {
+    add(vertex->info().labels.bytes());
+  }
+  return bytes;
+}
+
+}  // namespace facet_mapping::carving

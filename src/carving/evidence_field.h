@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The Delaunay triangulation of the sites with every ray's evidence in the cells that it crosses.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "carving/rays.h"
+#include "carving/triangulation.h"
+
+namespace facet_mapping::carving {
+
+struct NewVertex {
+  SiteId site;
+  Eigen::Vector3d point;
+  bool steiner;
+};
+
+/// A ray and the vertex at which it ends.
+struct RayEnd {
+  RayId ray;
+  SiteId site;
+};
+
+/// One change of what the map consists of. Rays that stay where they are need no mention.
+struct FieldChange {
+  std::vector<RayEnd> withdrawn;  ///< rays that go, or that end elsewhere now
+  std::vector<SiteId> removed;    ///< vertices that go
+  std::vector<NewVertex> added;
+  std::vector<RayEnd> attached;  ///< rays that come, or that ended elsewhere before
+};
+
+/// Invariant between calls: each cell's evidence is the sum over all rays that cross it. Only rays
+/// that crossed a cell that is gone are traced again (Litvinov & Lhuillier 2014), and only new
+/// cells take their evidence.
+class EvidenceField {
+ public:
+  struct Config {
+    double behind_distance_m;  ///< how far behind a point its label is evidence
+    double cap_rays;           ///< more evidence than this changes no cell's class
+  };
+
+  EvidenceField(RayStore* rays, const Config& config) : store_(*rays), config_(config) {}
+
+  void apply(const FieldChange& change);
+
+  Triangulation& triangulation() { return triangulation_; }
+  const Triangulation& triangulation() const { return triangulation_; }
+  bool is_solid() const { return triangulation_.dimension() == 3; }
+  /// Bytes of the triangulation and the evidence in it.
+  std::size_t bytes() const;
+
+ private:
+  /// One cell that a ray crosses.
+  struct Hit {
+    enum class Part { kFront, kBehind, kOutside };
+    CellHandle cell;
+    Weight weight;
+    Part part;
+  };
+
+  void withdraw(const std::vector<RayEnd>& ends);
+  void uncount(const std::vector<RayEnd>& ends);
+  void remove_vertex(SiteId site);
+  void add_vertices(std::vector<NewVertex> vertices);
+  VertexHandle add_vertex(const Point& point);
+  void attach(const std::vector<RayEnd>& ends);
+  void forget_evidence();
+  void destroy(CellHandle cell);
+  void trace_all(const std::vector<RayId>& ids);
+  std::vector<Hit> trace(const Ray& ray, SiteId site) const;
+  void trace_front(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const;
+  void trace_behind(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const;
+  void put(RayId id, const std::vector<Hit>& hits);
+  void take(RayId id, const std::vector<Hit>& hits);
+  bool changes_class(Weight before, Weight after) const;
+
+  RayStore& store_;
+  Config config_;
+  Triangulation triangulation_;
+  std::unordered_map<SiteId, VertexHandle> vertices_;
+  std::vector<RayId> retrace_;
+  std::uint32_t epoch_ = 0;
+  CellHandle hint_;
+};
+
+}  // namespace facet_mapping::carving
