@@ -4,14 +4,19 @@
 // Walking a segment through the cells of the triangulation.
 #pragma once
 
+#include <array>
+
 #include "carving/triangulation.h"
-#include <Eigen/Core>
 
 namespace facet_mapping::carving {
 
-/// Visits the cells whose interior the open segment from a vertex to `target` crosses, starting at
-/// the vertex. Signs are decided in floating point and, only in doubt, by exact predicates, so that
-/// the cells do not depend on how the triangulation came about.
+/// Visits, in order, the cells whose interior the open segment from a vertex to `target` crosses.
+///
+/// Signs are decided in floating point and, only in doubt, exactly; where the segment meets an edge
+/// or a vertex, or runs in a facet's plane, its far end counts as moved by (e, e^2, e^3) with an
+/// infinitely small e. So a run is always a chain of cells that share facets, it holds all cells
+/// that the segment crosses and beyond these only ones that it touches, and it depends neither on
+/// how the triangulation came about nor on the order in which a cell stores its vertices.
 class RayWalk {
  public:
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
@@ -27,20 +32,35 @@ class RayWalk {
   void advance();
 
  private:
-  void enter_from_vertex(VertexHandle start);
-  void choose_exit(int entry);
-  void check_target();
-  int separating_facet(int apex) const;
-  bool sees_inside(int k) const;
-  bool turns_left(const Point& a, const Point& b) const;
+  /// A vertex seen along the segment: shifted along it onto a coordinate plane through the start.
+  struct Corner {
+    VertexHandle vertex;
+    double u;     ///< metres
+    double v;     ///< metres
+    double size;  ///< largest coordinate relative to the start, metres: scales the error
+    bool before;  ///< nearer than the target along the main axis, exactly
+  };
 
-  const Triangulation& triangulation_;
+  void choose_axes();
+  Corner corner(VertexHandle vertex) const;
+  bool turns_left(const Corner& a, const Corner& b) const;
+  bool turns_left_exactly(const Point& a, const Point& b) const;
+  void enter_from_vertex(VertexHandle start);
+  bool find_first_cell(VertexHandle start);
+  void check_target();
+
+  VertexHandle infinite_;
   Point source_;
   Point target_;
-  Eigen::Vector3d direction_;
+  int axis_u_ = 0;  ///< the axes are a cyclic turn of x, y, z, so that signs stay
+  int axis_v_ = 1;
+  int axis_w_ = 2;        ///< the main axis: the segment's largest component
+  double slope_u_ = 0.0;  ///< du / dw along the segment
+  double slope_v_ = 0.0;  ///< dv / dw along the segment
+  bool forward_ = true;   ///< w grows along the segment
   CellHandle cell_;
+  std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   int exit_ = -1;
-  int steps_ = 0;
   bool at_target_ = false;
   bool done_ = false;
 };
