@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -20,10 +19,6 @@ constexpr int kMaxTurns = 10000000;
 
 Eigen::Vector3d difference(const Point& a, const Point& b) {
   return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
-}
-
-double coordinate(const Point& point, int axis) {
-  return *(point.cartesian_begin() + axis);
 }
 
 // The corners of a cell but for `apex`, in the order in which a ray from the apex through their
@@ -47,42 +42,31 @@ RayWalk::RayWalk(const Triangulation& triangulation, VertexHandle start, const P
 
 void RayWalk::choose_axes() {
   const Eigen::Vector3d direction = difference(target_, source_);
-  direction.cwiseAbs().maxCoeff(&axis_w_);
-  axis_u_ = (axis_w_ + 1) % 3;
-  axis_v_ = (axis_w_ + 2) % 3;
-  slope_u_ = direction[axis_u_] / direction[axis_w_];
-  slope_v_ = direction[axis_v_] / direction[axis_w_];
-  forward_ = direction[axis_w_] > 0.0;
-}
-
-// Seen along the segment from behind, (u, v) turn as in space; against the main axis they are
-// mirrored.
-RayWalk::Corner RayWalk::corner(VertexHandle vertex) const {
-  const Point& point = vertex->point();
-  const double pu = coordinate(point, axis_u_) - coordinate(source_, axis_u_);
-  const double pv = coordinate(point, axis_v_) - coordinate(source_, axis_v_);
-  const double pw = coordinate(point, axis_w_) - coordinate(source_, axis_w_);
-  const double u = pu - slope_u_ * pw;
-  const double at = coordinate(point, axis_w_);
-  const double end = coordinate(target_, axis_w_);
-  return {vertex,
-          forward_ ? u : -u,
-          pv - slope_v_ * pw,
-          std::max({std::abs(pu), std::abs(pv), std::abs(pw)}),
-          forward_ ? at < end : at > end};
-}
-
-// Sign of det(target - source, a - source, b - source) > 0. With slopes of at most 1, u and v are
-// wrong by at most 9 units in the last place of `size` and their cross product by 90 of the product
-// of the sizes (2^-53 each), hence 1e-14, doubled; the last term covers underflow.
-bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
-  constexpr double kRelativeError = 2e-14;
-  constexpr double kUnderflow = 1e-290;
-  const double cross = a.u * b.v - a.v * b.u;
-  if (std::abs(cross) > kRelativeError * a.size * b.size + kUnderflow) {
-    return cross > 0.0;
+  int main_axis = 0;
+  direction.cwiseAbs().maxCoeff(&main_axis);
+  axes_ = {(main_axis + 1) % 3, (main_axis + 2) % 3, main_axis};
+  direction_ = direction[main_axis] > 0.0 ? 1.0 : -1.0;
+  if (direction_ < 0.0) {
+    std::swap(axes_[0], axes_[1]);  // seen against the main axis, space is mirrored
   }
-  return turns_left_exactly(a.vertex->point(), b.vertex->point());
+  for (int k = 0; k < 3; ++k) {
+    origin_[k] = source_[axes_[k]];
+  }
+  slope_u_ = direction[axes_[0]] / direction[main_axis];
+  slope_v_ = direction[axes_[1]] / direction[main_axis];
+  end_ = direction_ * target_[main_axis];
+}
+
+bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
+  const Turn quick = turn(a, b);
+  return quick.sure ? quick.left : turns_left_exactly(a.vertex->point(), b.vertex->point());
+}
+
+int RayWalk::hidden_corner_exactly(const Corner& reached) const {
+  if (turns_left(reached, ring_[0])) {
+    return turns_left(reached, ring_[1]) ? 0 : 2;
+  }
+  return turns_left(reached, ring_[2]) ? 1 : 0;
 }
 
 // In the plane of the segment the determinant of the far end's shift by (e, e^2, e^3) decides: its
@@ -151,48 +135,14 @@ bool RayWalk::find_first_cell(VertexHandle start) {
   throw std::logic_error("ray walk: the cells around a vertex are no Delaunay triangulation");
 }
 
-// The segment leaves through its exit facet between that one's corners, so that mostly the main
-// axis alone tells on which side the target lies.
-void RayWalk::check_target() {
-  const int before = static_cast<int>(ring_[0].before) + static_cast<int>(ring_[1].before) +
-                     static_cast<int>(ring_[2].before);
-  if (before == 3 || before == 0) {
-    at_target_ = before == 0;
-    return;
-  }
+// True if the target lies on the inner side of the exit facet, or on its plane.
+bool RayWalk::sees_inside() const {
   std::array<const Point*, 4> corners{};
   for (int j = 0; j < 4; ++j) {
     corners[j] = &cell_->vertex(j)->point();
   }
   corners[exit_] = &target_;
-  at_target_ =
-      CGAL::orientation(*corners[0], *corners[1], *corners[2], *corners[3]) != CGAL::NEGATIVE;
-}
-
-// The new corner lies, seen along the segment, opposite to one of the ring's three sides: that side
-// and the new corner are the facet that the segment leaves through.
-void RayWalk::advance() {
-  if (at_target_) {
-    done_ = true;
-    return;
-  }
-  const CellHandle next = cell_->neighbor(exit_);
-  const VertexHandle apex = next->vertex(next->index(cell_));
-  if (apex == infinite_) {
-    done_ = true;
-    return;
-  }
-  cell_ = next;
-  const Corner reached = corner(apex);
-  int replaced = 0;
-  if (turns_left(reached, ring_[0])) {
-    replaced = turns_left(reached, ring_[1]) ? 0 : 2;
-  } else {
-    replaced = turns_left(reached, ring_[2]) ? 1 : 0;
-  }
-  exit_ = cell_->index(ring_[replaced].vertex);
-  ring_[replaced] = reached;
-  check_target();
+  return CGAL::orientation(*corners[0], *corners[1], *corners[2], *corners[3]) != CGAL::NEGATIVE;
 }
 
 double distance_to_facet(CellHandle cell, int facet, const Point& source, const Point& target) {
