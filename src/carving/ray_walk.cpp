@@ -32,12 +32,10 @@ std::array<int, 3> counter_clockwise(int apex) {
 
 RayWalk::RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target)
     : infinite_(triangulation.infinite_vertex()), source_(start->point()), target_(target) {
-  if (source_ == target_) {
-    done_ = true;
-    return;
+  if (source_ != target_) {
+    choose_axes();
+    enter_from_vertex(start);
   }
-  choose_axes();
-  enter_from_vertex(start);
 }
 
 void RayWalk::choose_axes() {
@@ -97,10 +95,9 @@ void RayWalk::enter_from_vertex(VertexHandle start) {
     cell_ = cell_->neighbor(infinite_index);
   }
   if (find_first_cell(start)) {
+    done_ = false;
     exit_ = cell_->index(start);
     check_target();
-  } else {
-    done_ = true;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "carving/triangulation.h"
@@ -22,6 +23,7 @@ namespace facet_mapping::carving {
 /// how the triangulation came about nor on the order in which a cell stores its vertices.
 class RayWalk {
  public:
+  RayWalk() = default;  ///< done()
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
 
   /// The present cell; invalid once done().
@@ -33,6 +35,11 @@ class RayWalk {
   /// Index of the facet through which the segment leaves the present cell (toward the target).
   int exit_facet() const { return exit_; }
   void advance();
+
+  /// Fetch into the cache what the next advance() reads, for walks by turns (see ray_bundle.h): the
+  /// cell first, then, once that is there, its far corner. Not to be called once done().
+  void fetch_next_cell() const;
+  void fetch_next_corner() const;
 
  private:
   /// A vertex seen along the segment: shifted along it onto a coordinate plane through the start.
@@ -75,7 +82,7 @@ class RayWalk {
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   int exit_ = -1;
   bool at_target_ = false;
-  bool done_ = false;
+  bool done_ = true;
 };
 
 /// Distance from `source` along the segment to the plane of a facet; the facet's points are taken
@@ -140,6 +147,18 @@ inline int RayWalk::hidden_corner(const Corner& reached) const {
 inline void RayWalk::check_target() {
   const unsigned before = ring_[0].before + ring_[1].before + ring_[2].before;
   at_target_ = before != 3 && (before == 0 || sees_inside());
+}
+
+inline void RayWalk::fetch_next_cell() const {
+  const auto* next = reinterpret_cast<const char*>(&*cell_->neighbor(exit_));
+  constexpr std::size_t kCacheLine = 64;
+  __builtin_prefetch(next);
+  __builtin_prefetch(next + kCacheLine);
+}
+
+inline void RayWalk::fetch_next_corner() const {
+  const CellHandle next = cell_->neighbor(exit_);
+  __builtin_prefetch(&next->vertex(index_of(next, cell_))->point());
 }
 
 inline void RayWalk::advance() {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmark/street_scans.h"
-#include "carving/ray_walk.h"
+#include "carving/ray_bundle.h"
 #include "support/crossed_cells.h"
 #include <benchmark/benchmark.h>
 
@@ -93,15 +93,44 @@ double median(Paces paces) {
   return paces[paces.size() / 2];
 }
 
+// The cells of a block of rays, as the map keeps them until they are applied.
+constexpr std::size_t kBlock = 2048;
+using Block = std::vector<Cells>;
+
+void walk_block(const Scene& scene, std::size_t begin, std::size_t end, Block* cells) {
+  carving::walk_rays(
+      scene.triangulation,
+      end - begin,
+      [&](std::size_t k) { return scene.rays[begin + k].vertex; },
+      [&](std::size_t k) -> const Point& { return scene.rays[begin + k].center; },
+      [&](std::size_t k, const RayWalk& walk) { (*cells)[k].push_back(walk.cell()); });
+}
+
+void walk_block_singly(const Scene& scene, std::size_t begin, std::size_t end, Block* cells) {
+  for (std::size_t k = begin; k < end; ++k) {
+    walk_cells(scene, scene.rays[k], &(*cells)[k - begin]);
+  }
+}
+
+void traverse_block(const Scene& scene, std::size_t begin, std::size_t end, Block* cells) {
+  for (std::size_t k = begin; k < end; ++k) {
+    traverse_cells(scene, scene.rays[k], &(*cells)[k - begin]);
+  }
+}
+
 template <typename Trace>
 double cells_per_second(const Scene& scene, const Trace& trace) {
-  Cells cells;
+  static Block cells(kBlock);
   std::size_t count = 0;
   const double start = processor_seconds();
-  for (const TracedRay& ray : scene.rays) {
-    cells.clear();
-    trace(scene, ray, &cells);
-    count += cells.size();
+  for (std::size_t begin = 0; begin < scene.rays.size(); begin += kBlock) {
+    for (Cells& ray : cells) {
+      ray.clear();
+    }
+    trace(scene, begin, std::min(begin + kBlock, scene.rays.size()), &cells);
+    for (const Cells& ray : cells) {
+      count += ray.size();
+    }
   }
   return static_cast<double>(count) / (processor_seconds() - start);
 }
@@ -152,17 +181,20 @@ double mean_cells(const Scene& scene) {
 void trace_rays(benchmark::State& state) {
   const Scene scene = make_scene(static_cast<std::size_t>(state.range(0)));
   Paces walk;
+  Paces single;
   Paces traverser;
   Paces ratio;
   for (auto _ : state) {
-    traverser.push_back(cells_per_second(scene, traverse_cells));
-    walk.push_back(cells_per_second(scene, walk_cells));
+    traverser.push_back(cells_per_second(scene, traverse_block));
+    single.push_back(cells_per_second(scene, walk_block_singly));
+    walk.push_back(cells_per_second(scene, walk_block));
     ratio.push_back(walk.back() / traverser.back());
   }
   const Comparison comparison = compare_all(scene);
   state.counters["rays"] = static_cast<double>(scene.rays.size());
   state.counters["cells_per_ray"] = mean_cells(scene);
   state.counters["cells_per_s"] = median(walk);
+  state.counters["singly_cells_per_s"] = median(single);
   state.counters["cgal_cells_per_s"] = median(traverser);
   state.counters["ratio"] = median(ratio);
   state.counters["only_touched"] = comparison.touched;

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "carving/ray_walk.h"
-
 #include <algorithm>
 #include <array>
 #include <random>
 #include <set>
 #include <vector>
 
+#include "carving/ray_bundle.h"
 #include "support/crossed_cells.h"
 #include <gtest/gtest.h>
 
@@ -129,6 +128,30 @@ TEST(RayWalk, DoesNotDependOnTheTriangulationsHistory) {
         b.push_back(points_of(cell));
       }
       EXPECT_EQ(a, b);
+    }
+  }
+}
+
+TEST(RayBundle, VisitsTheCellsOfEachRayInItsOrder) {
+  std::mt19937 random(5);
+  const std::vector<Point> points = random_points(&random, 400, 0.2);
+  const Triangulation triangulation(points.begin(), points.end());
+  std::vector<VertexHandle> starts;
+  std::vector<Point> targets;
+  for (const VertexHandle vertex : triangulation.finite_vertex_handles()) {
+    starts.push_back(vertex);
+    targets.push_back(starts.size() % 10 == 0 ? vertex->point() : points[random() % 400]);
+  }
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{5}, starts.size()}) {
+    std::vector<std::vector<CellHandle>> cells(count);
+    walk_rays(
+        triangulation,
+        count,
+        [&](std::size_t k) { return starts[k]; },
+        [&](std::size_t k) { return targets[k]; },
+        [&](std::size_t k, const RayWalk& walk) { cells[k].push_back(walk.cell()); });
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_EQ(cells[k], walked(triangulation, starts[k], targets[k]));
     }
   }
 }
