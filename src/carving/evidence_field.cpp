@@ -7,15 +7,15 @@
 #include <cmath>
 #include <iterator>
 
-#include "carving/ray_walk.h"
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <tbb/parallel_for.h>
 
 namespace facet_mapping::carving {
 namespace {
+
+constexpr std::size_t kTraceBlock = 4096;  ///< rays; bounds the memory of hits not yet entered
 
 /// Sorts along a space-filling curve, so that each insertion starts near the last.
 void sort_in_space(std::vector<NewVertex>* vertices) {
@@ -54,26 +54,18 @@ void EvidenceField::apply(const FieldChange& change) {
     forget_evidence();
   }
   if (is_solid()) {
-    trace_all(retrace_);
-    retrace_.clear();
-    for (const CellHandle cell : triangulation_.all_cell_handles()) {
-      cell->info().is_new = false;
-    }
+    trace();
   }
 }
 
 void EvidenceField::withdraw(const std::vector<RayEnd>& ends) {
-  constexpr std::size_t kBlock = 2048;
-  std::vector<std::vector<Hit>> hits(kBlock);
-  for (std::size_t begin = 0; begin < ends.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, ends.size() - begin);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-      const RayEnd& end = ends[begin + k];
-      hits[k] = trace(store_.rays[end.ray], end.site);
-    });
+  for (std::size_t begin = 0; begin < ends.size(); begin += kTraceBlock) {
+    const std::size_t count = std::min(kTraceBlock, ends.size() - begin);
+    const auto hits = tracer().trace(ends.data() + begin, count);
     for (std::size_t k = 0; k < count; ++k) {
-      const RayEnd& end = ends[begin + k];
-      take(end.ray, hits[k]);
+      for (const Hit& hit : hits[k]) {
+        take(ends[begin + k].ray, hit);
+      }
     }
   }
 }
@@ -200,68 +192,45 @@ void EvidenceField::forget_evidence() {
   });
 }
 
-void EvidenceField::trace_all(const std::vector<RayId>& ids) {
-  constexpr std::size_t kBlock = 2048;  // bounds the memory of the hits waiting to be applied
-  std::vector<std::vector<Hit>> hits(kBlock);
-  for (std::size_t begin = 0; begin < ids.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, ids.size() - begin);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-      const Ray& ray = store_.rays[ids[begin + k]];
-      hits[k] = trace(ray, ray.site);
-    });
+void EvidenceField::trace() {
+  std::vector<RayEnd> fresh;
+  std::vector<RayId> old;
+  std::sort(retrace_.begin(), retrace_.end());
+  for (const RayId id : retrace_) {
+    if (store_.rays[id].fresh) {
+      fresh.push_back({id, store_.rays[id].site});
+    } else {
+      old.push_back(id);
+    }
+  }
+  std::vector<CellHandle> new_cells;
+  for (const CellHandle cell : triangulation_.all_cell_handles()) {
+    if (cell->info().is_new) {
+      new_cells.push_back(cell);
+    }
+  }
+  for (const auto& block : tracer().trace_new_cells(new_cells, old)) {
+    for (const auto& [id, hit] : block) {
+      put(id, hit);
+    }
+  }
+  trace_fresh(fresh);
+  for (const CellHandle cell : new_cells) {
+    cell->info().is_new = false;
+  }
+  retrace_.clear();
+}
+
+void EvidenceField::trace_fresh(const std::vector<RayEnd>& ends) {
+  for (std::size_t begin = 0; begin < ends.size(); begin += kTraceBlock) {
+    const std::size_t count = std::min(kTraceBlock, ends.size() - begin);
+    const auto hits = tracer().trace(ends.data() + begin, count);
     for (std::size_t k = 0; k < count; ++k) {
-      put(ids[begin + k], hits[k]);
+      for (const Hit& hit : hits[k]) {
+        put(ends[begin + k].ray, hit);
+      }
+      store_.rays[ends[begin + k].ray].fresh = false;
     }
-  }
-}
-
-std::vector<EvidenceField::Hit> EvidenceField::trace(const Ray& ray, SiteId site) const {
-  std::vector<Hit> hits;
-  hits.reserve(128);
-  const VertexHandle vertex = vertices_.at(site);
-  trace_front(ray, vertex, &hits);
-  if (ray.label != kUnlabelled) {
-    trace_behind(ray, vertex, &hits);
-  }
-  return hits;
-}
-
-void EvidenceField::trace_front(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const {
-  const Point& source = vertex->point();
-  const Point target = to_point(store_.frames[ray.frame].eye);
-  const double length = std::sqrt(CGAL::squared_distance(source, target));
-  Weight weight = 0;
-  RayWalk walk(triangulation_, vertex, target);
-  for (; !walk.done(); walk.advance()) {
-    if (weight != kRayWeight) {
-      const double reach = walk.at_target()
-                               ? length
-                               : distance_to_facet(walk.cell(), walk.exit_facet(), source, target);
-      weight = soft_weight(reach, ray.sigma);
-    }
-    hits->push_back({walk.cell(), weight, Hit::Part::kFront});
-  }
-  if (walk.left_hull()) {
-    hits->push_back({walk.cell(), 0, Hit::Part::kOutside});
-  }
-}
-
-void EvidenceField::trace_behind(const Ray& ray,
-                                 VertexHandle vertex,
-                                 std::vector<Hit>* hits) const {
-  const Point& source = vertex->point();
-  const Kernel::Vector_3 away = source - to_point(store_.frames[ray.frame].eye);
-  const double length = std::sqrt(away.squared_length());
-  if (length == 0.0) {
-    return;
-  }
-  const Point target = source + away * (config_.behind_distance_m / length);
-  RayWalk walk(triangulation_, vertex, target);
-  for (; !walk.done(); walk.advance()) {
-    hits->push_back({walk.cell(), kRayWeight, Hit::Part::kBehind});
-  }
-  if (walk.left_hull()) {
-    hits->push_back({walk.cell(), 0, Hit::Part::kOutside});
   }
 }
 
@@ -270,46 +239,33 @@ bool EvidenceField::changes_class(Weight before, Weight after) const {
   return std::min(before, cap) != std::min(after, cap);
 }
 
-void EvidenceField::put(RayId id, const std::vector<Hit>& hits) {
-  Ray& ray = store_.rays[id];
-  for (const Hit& hit : hits) {
-    CellInfo& cell = hit.cell->info();
-    if (hit.part == Hit::Part::kOutside) {  // which of several cells a ray leaves by may change
-      if (std::find(cell.rays.begin(), cell.rays.end(), id) == cell.rays.end()) {
-        cell.rays.push_back(id);
-      }
-      continue;
-    }
-    if (!ray.fresh && !cell.is_new) {
-      continue;  // the cell is older than this batch and has this ray's evidence already
-    }
-    if (hit.part == Hit::Part::kFront) {
-      cell.is_changed |= changes_class(cell.free, cell.free + hit.weight);
-      cell.free += hit.weight;
-    } else {
-      cell.labels.add(ray.label, hit.weight);
-      cell.is_changed = true;
-    }
-    cell.rays.push_back(id);
+void EvidenceField::put(RayId id, const Hit& hit) {
+  CellInfo& cell = hit.cell->info();
+  if (hit.part == Hit::Part::kFront) {
+    cell.is_changed |= changes_class(cell.free, cell.free + hit.weight);
+    cell.free += hit.weight;
+  } else if (hit.part == Hit::Part::kBehind) {
+    cell.labels.add(store_.rays[id].label, hit.weight);
+    cell.is_changed = true;
+  } else if (std::find(cell.rays.begin(), cell.rays.end(), id) != cell.rays.end()) {
+    return;  // of the infinite cells at a vertex a ray may leave by one or another
   }
-  ray.fresh = false;
+  cell.rays.push_back(id);
 }
 
-void EvidenceField::take(RayId id, const std::vector<Hit>& hits) {
-  for (const Hit& hit : hits) {
-    CellInfo& cell = hit.cell->info();
-    if (hit.part == Hit::Part::kFront) {
-      cell.is_changed |= changes_class(cell.free, cell.free - hit.weight);
-      cell.free -= hit.weight;
-    } else if (hit.part == Hit::Part::kBehind) {
-      cell.labels.subtract(store_.rays[id].label, hit.weight);
-      cell.is_changed = true;
-    }
-    const auto at = std::find(cell.rays.begin(), cell.rays.end(), id);
-    if (at != cell.rays.end()) {
-      *at = cell.rays.back();
-      cell.rays.pop_back();
-    }
+void EvidenceField::take(RayId id, const Hit& hit) {
+  CellInfo& cell = hit.cell->info();
+  if (hit.part == Hit::Part::kFront) {
+    cell.is_changed |= changes_class(cell.free, cell.free - hit.weight);
+    cell.free -= hit.weight;
+  } else if (hit.part == Hit::Part::kBehind) {
+    cell.labels.subtract(store_.rays[id].label, hit.weight);
+    cell.is_changed = true;
+  }
+  const auto at = std::find(cell.rays.begin(), cell.rays.end(), id);
+  if (at != cell.rays.end()) {
+    *at = cell.rays.back();
+    cell.rays.pop_back();
   }
 }
 

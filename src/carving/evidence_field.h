@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "carving/ray_tracer.h"
 #include "carving/rays.h"
 #include "carving/triangulation.h"
 
@@ -17,12 +17,6 @@ struct NewVertex {
   SiteId site;
   Eigen::Vector3d point;
   bool steiner;
-};
-
-/// A ray and the vertex at which it ends.
-struct RayEnd {
-  RayId ray;
-  SiteId site;
 };
 
 /// One change of what the map consists of. Rays that stay where they are need no mention.
@@ -54,14 +48,6 @@ class EvidenceField {
   std::size_t bytes() const;
 
  private:
-  /// One cell that a ray crosses.
-  struct Hit {
-    enum class Part { kFront, kBehind, kOutside };
-    CellHandle cell;
-    Weight weight;
-    Part part;
-  };
-
   void withdraw(const std::vector<RayEnd>& ends);
   void uncount(const std::vector<RayEnd>& ends);
   void remove_vertex(SiteId site);
@@ -70,19 +56,20 @@ class EvidenceField {
   void attach(const std::vector<RayEnd>& ends);
   void forget_evidence();
   void destroy(CellHandle cell);
-  void trace_all(const std::vector<RayId>& ids);
-  std::vector<Hit> trace(const Ray& ray, SiteId site) const;
-  void trace_front(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const;
-  void trace_behind(const Ray& ray, VertexHandle vertex, std::vector<Hit>* hits) const;
-  void put(RayId id, const std::vector<Hit>& hits);
-  void take(RayId id, const std::vector<Hit>& hits);
+  void trace();
+  void trace_fresh(const std::vector<RayEnd>& ends);
+  RayTracer tracer() const {
+    return {triangulation_, store_, vertices_, config_.behind_distance_m};
+  }
+  void put(RayId id, const Hit& hit);
+  void take(RayId id, const Hit& hit);
   bool changes_class(Weight before, Weight after) const;
 
   RayStore& store_;
   Config config_;
   Triangulation triangulation_;
-  std::unordered_map<SiteId, VertexHandle> vertices_;
-  std::vector<RayId> retrace_;
+  VertexOfSite vertices_;
+  std::vector<RayId> retrace_;  ///< rays put up for tracing in this batch
   std::uint32_t epoch_ = 0;
   CellHandle hint_;
 };

@@ -5,134 +5,175 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <stdexcept>
+#include <utility>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace facet_mapping::carving {
 namespace {
 
-// Far more cells than any segment crosses: only a defect could walk in circles.
-constexpr int kMaxSteps = 10000000;
+// Far more cells than meet in any vertex: only a defect could walk in circles.
+constexpr int kMaxTurns = 10000000;
 
 Eigen::Vector3d difference(const Point& a, const Point& b) {
   return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
 }
 
+// The corners of a cell but for `apex`, in the order in which a ray from the apex through their
+// facet sees them counter-clockwise (CGAL's cells are positively oriented).
+std::array<int, 3> counter_clockwise(int apex) {
+  constexpr std::array<std::array<int, 3>, 4> kOrder{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  return kOrder[apex];
+}
+
 }  // namespace
 
 RayWalk::RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target)
-    : triangulation_(triangulation),
-      source_(start->point()),
-      target_(target),
-      direction_(difference(target, source_)) {
-  enter_from_vertex(start);
-}
-
-// Sign of det(target - source, a - source, b - source) > 0.
-bool RayWalk::turns_left(const Point& a, const Point& b) const {
-  const Eigen::Vector3d u = difference(a, source_);
-  const Eigen::Vector3d v = difference(b, source_);
-  const double determinant = direction_.dot(u.cross(v));
-  // Bound of the rounding error of the determinant (Shewchuk's permanent bound, rounded up); the
-  // differences themselves are rounded too, hence the generous factor.
-  const Eigen::Vector3d permanent(std::abs(u.y() * v.z()) + std::abs(u.z() * v.y()),
-                                  std::abs(u.z() * v.x()) + std::abs(u.x() * v.z()),
-                                  std::abs(u.x() * v.y()) + std::abs(u.y() * v.x()));
-  constexpr double kRelativeError = 2e-15;
-  if (std::abs(determinant) > kRelativeError * direction_.cwiseAbs().dot(permanent)) {
-    return determinant > 0.0;
+    : infinite_(triangulation.infinite_vertex()), source_(start->point()), target_(target) {
+  if (source_ != target_) {
+    choose_axes();
+    enter_from_vertex(start);
   }
-  return CGAL::orientation(source_, target_, a, b) == CGAL::POSITIVE;
 }
 
-// Turns around the start vertex toward the target: a facet through the start vertex that separates
-// the present cell from the target is crossed. (CGAL's incident_cells marks cells: not for
-// threads.)
+void RayWalk::choose_axes() {
+  const Eigen::Vector3d direction = difference(target_, source_);
+  int main_axis = 0;
+  direction.cwiseAbs().maxCoeff(&main_axis);
+  axes_ = {(main_axis + 1) % 3, (main_axis + 2) % 3, main_axis};
+  direction_ = direction[main_axis] > 0.0 ? 1.0 : -1.0;
+  if (direction_ < 0.0) {
+    std::swap(axes_[0], axes_[1]);  // seen against the main axis, space is mirrored
+  }
+  for (int k = 0; k < 3; ++k) {
+    origin_[k] = source_[axes_[k]];
+  }
+  slope_u_ = direction[axes_[0]] / direction[main_axis];
+  slope_v_ = direction[axes_[1]] / direction[main_axis];
+  end_ = direction_ * target_[main_axis];
+}
+
+bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
+  const Turn quick = turn(a, b);
+  return quick.sure ? quick.left : turns_left_exactly(a.vertex->point(), b.vertex->point());
+}
+
+int RayWalk::hidden_corner_exactly(const Corner& reached) const {
+  if (turns_left(reached, ring_[0])) {
+    return turns_left(reached, ring_[1]) ? 0 : 2;
+  }
+  return turns_left(reached, ring_[2]) ? 1 : 0;
+}
+
+// In the plane of the segment the determinant of the far end's shift by (e, e^2, e^3) decides: its
+// terms are the turns of (source, a, b) in the coordinate planes. Where these vanish too, the three
+// points lie on a line and no cell's facet asks.
+bool RayWalk::turns_left_exactly(const Point& a, const Point& b) const {
+  const CGAL::Orientation side = CGAL::orientation(source_, target_, a, b);
+  if (side != CGAL::COPLANAR) {
+    return side == CGAL::POSITIVE;
+  }
+  const auto turn = [&](int first, int second) {
+    const auto flat = [&](const Point& p) { return Kernel::Point_2(p[first], p[second]); };
+    return CGAL::orientation(flat(source_), flat(a), flat(b));
+  };
+  for (const auto& [first, second] : {std::pair(1, 2), std::pair(2, 0), std::pair(0, 1)}) {
+    const CGAL::Orientation shifted = turn(first, second);
+    if (shifted != CGAL::COLLINEAR) {
+      return shifted == CGAL::LEFT_TURN;
+    }
+  }
+  return false;
+}
+
 void RayWalk::enter_from_vertex(VertexHandle start) {
   cell_ = start->cell();
-  while (triangulation_.is_infinite(cell_)) {
-    cell_ = cell_->neighbor(cell_->index(triangulation_.infinite_vertex()));
+  int infinite_index = 0;
+  while (cell_->has_vertex(infinite_, infinite_index)) {
+    cell_ = cell_->neighbor(infinite_index);
   }
-  for (steps_ = 0; steps_ < kMaxSteps; ++steps_) {
-    const int apex = cell_->index(start);
-    const int across = separating_facet(apex);
-    if (across < 0) {
-      exit_ = apex;
-      check_target();
-      return;
+  if (find_first_cell(start)) {
+    done_ = false;
+    exit_ = cell_->index(start);
+    check_target();
+  }
+}
+
+// Turns around the start vertex: a facet through it that separates the present cell from the target
+// is crossed. That ends, as from any one point the cells of a Delaunay triangulation hide each
+// other without cycles (Edelsbrunner 1990). False if the segment leaves the convex hull at once.
+// (CGAL's incident_cells marks cells: not for threads.)
+bool RayWalk::find_first_cell(VertexHandle start) {
+  const std::array<int, 3> order = counter_clockwise(cell_->index(start));
+  for (int k = 0; k < 3; ++k) {
+    ring_[k] = corner(cell_->vertex(order[k]));
+  }
+  int known = -1;  // ring_[known] -> ring_[known + 1] turns left: the facet that was crossed last
+  for (int turns = 0; turns < kMaxTurns; ++turns) {
+    int across = 0;
+    while (across < 3 && (across == known || turns_left(ring_[across], ring_[(across + 1) % 3]))) {
+      ++across;
     }
-    cell_ = cell_->neighbor(across);
-    if (triangulation_.is_infinite(cell_)) {
+    if (across == 3) {
+      return true;
+    }
+    const VertexHandle behind = ring_[(across + 2) % 3].vertex;
+    const CellHandle next = cell_->neighbor(cell_->index(behind));
+    const VertexHandle apex = next->vertex(next->index(cell_));
+    if (apex == infinite_) {
+      cell_ = next;
       left_hull_ = true;
-      break;
+      return false;
     }
+    ring_ = {ring_[(across + 1) % 3], ring_[across], corner(apex)};
+    known = 0;
+    cell_ = next;
   }
-  done_ = true;
+  throw std::logic_error("ray walk: the cells around a vertex are no Delaunay triangulation");
 }
 
-// Which facet is tried first changes from step to step, so that the walk cannot turn in circles.
-int RayWalk::separating_facet(int apex) const {
-  for (int turn = 1; turn <= 3; ++turn) {
-    const int k = (apex + 1 + (turn + steps_ * 7) % 3) & 3;
-    if (!sees_inside(k)) {
-      return k;
-    }
+RayWalk RayWalk::through(const Triangulation& triangulation,
+                         VertexHandle start,
+                         const Point& target,
+                         CellHandle cell,
+                         int facet) {
+  RayWalk walk;
+  walk.infinite_ = triangulation.infinite_vertex();
+  walk.source_ = start->point();
+  walk.target_ = target;
+  walk.cell_ = cell;
+  walk.exit_ = facet;
+  if (walk.source_ == target) {
+    return walk;
   }
-  return -1;
+  walk.choose_axes();
+  const std::array<int, 3> order = counter_clockwise(facet);
+  for (int k = 0; k < 3; ++k) {
+    walk.ring_[k] = walk.corner(cell->vertex(order[k]));
+  }
+  walk.done_ = !walk.crosses_exit(start);
+  return walk;
 }
 
-// True if the target lies on the inner side of facet k, or on its plane.
-bool RayWalk::sees_inside(int k) const {
+bool RayWalk::crosses_exit(VertexHandle start) const {
+  for (int k = 0; k < 3; ++k) {
+    if (ring_[k].vertex == start || !turns_left(ring_[k], ring_[(k + 1) % 3])) {
+      return false;
+    }
+  }
+  return is_inside(source_) && !sees_inside();
+}
+
+// True if a point lies on the inner side of the exit facet, or on its plane.
+bool RayWalk::is_inside(const Point& point) const {
   std::array<const Point*, 4> corners{};
   for (int j = 0; j < 4; ++j) {
     corners[j] = &cell_->vertex(j)->point();
   }
-  corners[k] = &target_;
+  corners[exit_] = &point;
   return CGAL::orientation(*corners[0], *corners[1], *corners[2], *corners[3]) != CGAL::NEGATIVE;
-}
-
-void RayWalk::check_target() {
-  at_target_ = sees_inside(exit_);
-}
-
-void RayWalk::choose_exit(int entry) {
-  const Point& apex = cell_->vertex(entry)->point();
-  std::array<int, 3> ring{(entry + 1) & 3, (entry + 2) & 3, (entry + 3) & 3};
-  std::array<bool, 3> left{};
-  for (int k = 0; k < 3; ++k) {
-    left[k] = turns_left(apex, cell_->vertex(ring[k])->point());
-  }
-  // Seen along the segment, the entry facet surrounds it; the exit facet is the one of the apex and
-  // two corners that surrounds it too: the apex turns one way to the first, the other to the
-  // second.
-  const bool orientation =
-      turns_left(cell_->vertex(ring[0])->point(), cell_->vertex(ring[1])->point());
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    if (left[k] == orientation && left[next] != orientation) {
-      exit_ = ring[(k + 2) % 3];
-      return;
-    }
-  }
-  exit_ = ring[0];
-}
-
-void RayWalk::advance() {
-  if (at_target_ || ++steps_ > kMaxSteps) {
-    done_ = true;
-    return;
-  }
-  const CellHandle next = cell_->neighbor(exit_);
-  const int entry = next->index(cell_);
-  cell_ = next;
-  if (triangulation_.is_infinite(next)) {
-    left_hull_ = true;
-    done_ = true;
-    return;
-  }
-  choose_exit(entry);
-  check_target();
 }
 
 double distance_to_facet(CellHandle cell, int facet, const Point& source, const Point& target) {

@@ -4,17 +4,35 @@
 // Walking a segment through the cells of the triangulation.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
 #include "carving/triangulation.h"
-#include <Eigen/Core>
 
 namespace facet_mapping::carving {
 
-/// Visits the cells whose interior the open segment from a vertex to `target` crosses, starting at
-/// the vertex. Signs are decided in floating point and, only in doubt, by exact predicates, so that
-/// the cells do not depend on how the triangulation came about.
+/// Visits, in order, the cells whose interior the open segment from a vertex to `target` crosses.
+///
+/// Signs are decided in floating point and, only in doubt, exactly; where the segment meets an edge
+/// or a vertex, or runs in a facet's plane, its far end counts as moved by (e, e^2, e^3) with an
+/// infinitely small e. So a run is always a chain of cells that share facets, it holds all cells
+/// that the segment crosses and beyond these only ones that it touches, and it depends neither on
+/// how the triangulation came about nor on the order in which a cell stores its vertices.
 class RayWalk {
  public:
+  RayWalk() = default;  ///< done()
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
+
+  /// The part of the segment beyond a facet of a finite cell: stands in that cell and goes on
+  /// through the facet. done() if the segment does not leave the cell there.
+  static RayWalk through(const Triangulation& triangulation,
+                         VertexHandle start,
+                         const Point& target,
+                         CellHandle cell,
+                         int facet);
 
   /// The present cell; once done(), the last one, or the infinite cell if the segment left the
   /// hull.
@@ -29,28 +47,149 @@ class RayWalk {
   int exit_facet() const { return exit_; }
   void advance();
 
- private:
-  void enter_from_vertex(VertexHandle start);
-  void choose_exit(int entry);
-  void check_target();
-  int separating_facet(int apex) const;
-  bool sees_inside(int k) const;
-  bool turns_left(const Point& a, const Point& b) const;
+  /// Fetch into the cache what the next advance() reads, for walks by turns (see ray_bundle.h): the
+  /// cell first, then, once that is there, its far corner. Not to be called once done().
+  void fetch_next_cell() const;
+  void fetch_next_corner() const;
 
-  const Triangulation& triangulation_;
+ private:
+  /// A vertex seen along the segment: shifted along it onto a coordinate plane through the start.
+  struct Corner {
+    VertexHandle vertex;
+    double u;         ///< metres
+    double v;         ///< metres
+    double size;      ///< largest coordinate relative to the start, metres: scales the error
+    unsigned before;  ///< 1 if nearer than the target along the main axis, exactly
+  };
+
+  /// Which way two corners turn around the segment.
+  struct Turn {
+    bool left;
+    bool sure;
+  };
+
+  void choose_axes();
+  void enter_from_vertex(VertexHandle start);
+  bool find_first_cell(VertexHandle start);
+  Corner corner(VertexHandle vertex) const;
+  static Turn turn(const Corner& a, const Corner& b);
+  bool turns_left(const Corner& a, const Corner& b) const;
+  bool turns_left_exactly(const Point& a, const Point& b) const;
+  int hidden_corner(const Corner& reached) const;
+  int hidden_corner_exactly(const Corner& reached) const;
+  void check_target();
+  bool sees_inside() const { return is_inside(target_); }
+  bool is_inside(const Point& point) const;
+  bool crosses_exit(VertexHandle start) const;
+
+  VertexHandle infinite_;
   Point source_;
   Point target_;
-  Eigen::Vector3d direction_;
+  std::array<int, 3> axes_{};       ///< of u, v, w; w: the segment's largest component
+  std::array<double, 3> origin_{};  ///< the source along these axes
+  double slope_u_ = 0.0;            ///< du / dw along the segment, at most 1 in size
+  double slope_v_ = 0.0;            ///< dv / dw along the segment, at most 1 in size
+  double direction_ = 1.0;          ///< 1 if w grows along the segment, else -1
+  double end_ = 0.0;                ///< direction times the target's w
   CellHandle cell_;
+  std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   int exit_ = -1;
-  int steps_ = 0;
   bool at_target_ = false;
-  bool done_ = false;
+  bool done_ = true;
   bool left_hull_ = false;
 };
 
 /// Distance from `source` along the segment to the plane of a facet; the facet's points are taken
 /// in lexicographic order so that the result does not depend on the cell's vertex order.
 double distance_to_facet(CellHandle cell, int facet, const Point& source, const Point& target);
+
+// The functions below run once per cell: they are inline and free of branches that no processor can
+// foresee, which cost more than the arithmetic.
+
+/// Index of a neighbour, which must be one.
+inline int index_of(CellHandle cell, CellHandle neighbour) {
+  return static_cast<int>(cell->neighbor(1) == neighbour) +
+         2 * static_cast<int>(cell->neighbor(2) == neighbour) +
+         3 * static_cast<int>(cell->neighbor(3) == neighbour);
+}
+
+/// Index of a vertex, which must be one of the cell's.
+inline int index_of(CellHandle cell, VertexHandle vertex) {
+  return static_cast<int>(cell->vertex(1) == vertex) +
+         2 * static_cast<int>(cell->vertex(2) == vertex) +
+         3 * static_cast<int>(cell->vertex(3) == vertex);
+}
+
+inline RayWalk::Corner RayWalk::corner(VertexHandle vertex) const {
+  const double* at = vertex->point().cartesian_begin();
+  const double u = at[axes_[0]] - origin_[0];
+  const double v = at[axes_[1]] - origin_[1];
+  const double w = at[axes_[2]] - origin_[2];
+  return {vertex,
+          u - slope_u_ * w,
+          v - slope_v_ * w,
+          std::max(std::max(std::abs(u), std::abs(v)), std::abs(w)),
+          static_cast<unsigned>(direction_ * at[axes_[2]] < end_)};
+}
+
+// Sign of det(target - source, a - source, b - source). With slopes of at most 1, u and v are wrong
+// by at most 9 units in the last place of `size` and their cross product by 90 of the product of
+// the sizes (2^-53 each), hence 1e-14, doubled; the last term covers underflow.
+inline RayWalk::Turn RayWalk::turn(const Corner& a, const Corner& b) {
+  constexpr double kRelativeError = 2e-14;
+  constexpr double kUnderflow = 1e-290;
+  const double cross = a.u * b.v - a.v * b.u;
+  return {cross > 0.0, std::abs(cross) > kRelativeError * a.size * b.size + kUnderflow};
+}
+
+// The new corner lies, seen along the segment, opposite to one side of the ring: that side and the
+// new corner are the next exit facet. Returns the ring's corner that is not of it.
+inline int RayWalk::hidden_corner(const Corner& reached) const {
+  const Turn first = turn(reached, ring_[0]);
+  const Turn second = turn(reached, ring_[1]);
+  const Turn third = turn(reached, ring_[2]);
+  if (!(first.sure & second.sure & third.sure)) {
+    return hidden_corner_exactly(reached);
+  }
+  constexpr std::array<std::int8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
+  return kHidden[static_cast<unsigned>(first.left) + 2U * static_cast<unsigned>(second.left) +
+                 4U * static_cast<unsigned>(third.left)];
+}
+
+// The segment leaves through its exit facet between that one's corners, so that mostly the main
+// axis alone tells on which side the target lies.
+inline void RayWalk::check_target() {
+  const unsigned before = ring_[0].before + ring_[1].before + ring_[2].before;
+  at_target_ = before != 3 && (before == 0 || sees_inside());
+}
+
+inline void RayWalk::fetch_next_cell() const {
+  const auto* next = reinterpret_cast<const char*>(&*cell_->neighbor(exit_));
+  constexpr std::size_t kCacheLine = 64;
+  __builtin_prefetch(next);
+  __builtin_prefetch(next + kCacheLine);
+}
+
+inline void RayWalk::fetch_next_corner() const {
+  const CellHandle next = cell_->neighbor(exit_);
+  __builtin_prefetch(&next->vertex(index_of(next, cell_))->point());
+}
+
+inline void RayWalk::advance() {
+  const CellHandle next = cell_->neighbor(exit_);
+  const VertexHandle apex = next->vertex(index_of(next, cell_));
+  if (at_target_ || apex == infinite_) {
+    left_hull_ = !at_target_;
+    cell_ = at_target_ ? cell_ : next;
+    done_ = true;
+    return;
+  }
+  cell_ = next;
+  const Corner reached = corner(apex);
+  const int hidden = hidden_corner(reached);
+  exit_ = index_of(cell_, ring_[hidden].vertex);
+  ring_[hidden] = reached;
+  check_target();
+}
 
 }  // namespace facet_mapping::carving
