@@ -72,10 +72,11 @@ void EvidenceField::withdraw(const std::vector<RayEnd>& ends) {
 
 void EvidenceField::uncount(const std::vector<RayEnd>& ends) {
   for (const RayEnd& end : ends) {
+    const Ray& ray = store_.rays[end.ray];
     VertexInfo& vertex = vertices_.at(end.site)->info();
-    --vertex.rays;
-    if (store_.rays[end.ray].label != kUnlabelled) {
-      vertex.labels.subtract(store_.rays[end.ray].label, kRayWeight);
+    vertex.rays -= ray.open ? 0 : 1;
+    if (ray.label != kUnlabelled) {
+      vertex.labels.subtract(ray.label, kRayWeight);
     }
   }
 }
@@ -106,7 +107,6 @@ void EvidenceField::add_vertices(std::vector<NewVertex> vertices) {
   for (const NewVertex& added : vertices) {
     const VertexHandle vertex = add_vertex(to_point(added.point));
     vertex->info().id = added.site;
-    vertex->info().steiner = added.steiner;
     vertices_[added.site] = vertex;
   }
 }
@@ -146,7 +146,7 @@ void EvidenceField::destroy(CellHandle cell) {
       continue;  // forgotten
     }
     Ray& ray = store_.rays[id];
-    if (ray.site != kNoId && ray.epoch != epoch_) {
+    if (ray.active && ray.epoch != epoch_) {
       ray.epoch = epoch_;
       retrace_.push_back(id);
     }
@@ -157,7 +157,7 @@ void EvidenceField::attach(const std::vector<RayEnd>& ends) {
   for (const RayEnd& end : ends) {
     Ray& ray = store_.rays[end.ray];
     VertexInfo& vertex = vertices_.at(end.site)->info();
-    ++vertex.rays;
+    vertex.rays += ray.open ? 0 : 1;
     if (ray.label != kUnlabelled) {
       vertex.labels.add(ray.label, kRayWeight);
     }
@@ -183,7 +183,7 @@ void EvidenceField::forget_evidence() {
     vertex->info().is_dirty = true;
   }
   store_.rays.for_each_id([this](RayId id) {
-    if (store_.rays[id].site == kNoId) {
+    if (!store_.rays[id].active) {
       return;
     }
     store_.rays[id].fresh = true;

@@ -16,7 +16,6 @@ namespace facet_mapping::carving {
 struct NewVertex {
   SiteId site;
   Eigen::Vector3d point;
-  bool steiner;
 };
 
 /// One change of what the map consists of. Rays that stay where they are need no mention.

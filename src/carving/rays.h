@@ -24,7 +24,9 @@ struct Ray {
   FrameId frame = kNoId;
   std::uint32_t epoch = 0;  ///< batch in which it was last put up for tracing
   Label label = kUnlabelled;
-  bool fresh = true;  ///< no cell has this ray's evidence
+  bool fresh = true;    ///< no cell has this ray's evidence
+  bool open = false;    ///< no surface at its end
+  bool active = false;  ///< gives evidence: the first ray of its frame to its site
 };
 
 struct RayFrame {

@@ -40,14 +40,14 @@ SiteId Sites::nearest(const Eigen::Vector3d& point, double reach_m, RayId before
 }
 
 void Sites::add(RayId id) {
-  before_.emplace(id, kNoId);
+  note(id);
   decide(id, false);
 }
 
 void Sites::remove(const std::vector<RayId>& ids) {
   for (const RayId id : ids) {
     const SiteId site = store_->rays[id].site;
-    before_.emplace(id, site);
+    note(id);
     if (site == kNoId) {
       continue;  // went with its founder, which was removed before it
     }
@@ -69,15 +69,22 @@ void Sites::remove(const std::vector<RayId>& ids) {
   settle();
 }
 
+void Sites::note(RayId id) {
+  const Ray& ray = store_->rays[id];
+  before_.emplace(id, ray.active ? ray.site : kNoId);
+}
+
 void Sites::detach(RayId id) {
   Ray& ray = store_->rays[id];
+  touched_.insert(ray.site);
   std::vector<RayId>& rays = sites_[ray.site].rays;
   rays.erase(std::find(rays.begin(), rays.end(), id));
   ray.site = kNoId;
+  ray.active = false;
 }
 
 void Sites::unsettle(RayId id) {
-  before_.emplace(id, store_->rays[id].site);
+  note(id);
   detach(id);
   undecided_.push(id);
 }
@@ -111,6 +118,7 @@ void Sites::decide(RayId id, bool hindsight) {
   } else {
     ray.site = near;
     sites_[near].rays.push_back(id);
+    touched_.insert(near);
   }
 }
 
@@ -119,6 +127,7 @@ void Sites::found(RayId id, const Eigen::Vector3d& point) {
   store_->rays[id].site = site;
   index_.insert(point, site);
   added_.push_back(site);
+  touched_.insert(site);
 }
 
 // A vertex founded in hindsight forbids younger ones within their founders' spacing, and draws
@@ -160,10 +169,30 @@ SiteId Sites::add_extra(const Eigen::Vector3d& point) {
   return sites_.push({point, kNoId, {}});
 }
 
+void Sites::choose_active(SiteId id) {
+  std::vector<RayId> rays = sites_[id].rays;
+  std::sort(rays.begin(), rays.end());
+  std::unordered_set<FrameId> frames;
+  for (const RayId ray_id : rays) {
+    Ray& ray = store_->rays[ray_id];
+    const bool is_first = frames.insert(ray.frame).second;
+    if (ray.active != is_first) {
+      note(ray_id);
+      ray.active = is_first;
+    }
+  }
+}
+
 SiteChanges Sites::take_changes() {
   SiteChanges changes;
+  for (const SiteId site : touched_) {
+    if (sites_.contains(site)) {
+      choose_active(site);
+    }
+  }
+  touched_.clear();
   for (const auto& [ray, from] : before_) {
-    const SiteId to = store_->rays[ray].site;
+    const SiteId to = store_->rays[ray].active ? store_->rays[ray].site : kNoId;
     if (from != to) {
       changes.switched.push_back({ray, from, to});
     }

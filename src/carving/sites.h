@@ -8,6 +8,7 @@
 #include <functional>
 #include <queue>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "carving/point_index.h"
@@ -25,14 +26,16 @@ struct Site {
 struct SiteChanges {
   struct Switch {
     RayId ray;
-    SiteId from;  ///< kNoId: a new ray
-    SiteId to;    ///< kNoId: a removed ray
+    SiteId from;  ///< kNoId: it gave no evidence before
+    SiteId to;    ///< kNoId: it gives none now
   };
   std::vector<SiteId> added;
   std::vector<SiteId> removed;
   std::vector<Switch> switched;  ///< in ascending order of the rays
 };
 
+/// Rays of one frame to one site run through the same cells: the first of them speaks for all.
+///
 /// The choice is that of going through all rays in the order of their ids: a ray whose point has no
 /// vertex of a smaller founder within its spacing founds one, else it joins the nearest. After any
 /// sequence of add() and remove() it is what it would be had the removed rays never been there.
@@ -66,7 +69,9 @@ class Sites {
 
  private:
   SiteId nearest(const Eigen::Vector3d& point, double reach_m, RayId before) const;
+  void note(RayId id);
   void detach(RayId id);
+  void choose_active(SiteId id);
   void unsettle(RayId id);
   void settle();
   void decide(RayId id, bool hindsight);
@@ -80,7 +85,8 @@ class Sites {
   PointIndex index_;
   PagedStore<Site> sites_;
   std::priority_queue<RayId, std::vector<RayId>, std::greater<>> undecided_;
-  std::unordered_map<RayId, SiteId> before_;  ///< where rays that changed stood at first
+  std::unordered_map<RayId, SiteId> before_;  ///< where rays that changed gave evidence at first
+  std::unordered_set<SiteId> touched_;        ///< sites that gained or lost rays
   std::vector<SiteId> added_;
   std::vector<SiteId> removed_;
 };

@@ -149,7 +149,8 @@ FrameId SpaceCarver::Impl::put_in(const CarvingFrame& frame) {
     Ray ray;
     ray.offset = (given.point - frame.center).cast<float>();
     ray.sigma = given.sigma;
-    ray.label = given.label;
+    ray.label = given.open ? kUnlabelled : given.label;
+    ray.open = given.open;
     ray.frame = id;
     const RayId ray_id = rays_.rays.push(ray);
     if (k == 0) {
@@ -175,7 +176,7 @@ void SpaceCarver::Impl::note_sites(const SiteChanges& changes, FieldChange* chan
   }
   for (const SiteId site : changes.added) {
     steiner_.add_point(sites_[site].point);
-    change->added.push_back({site, sites_[site].point, false});
+    change->added.push_back({site, sites_[site].point});
   }
 }
 
@@ -188,7 +189,7 @@ void SpaceCarver::Impl::note_steiner(FieldChange* change) {
     } else {
       const SiteId site = sites_.add_extra(wish.point);
       steiner_.set_site(wish.key, site);
-      change->added.push_back({site, wish.point, true});
+      change->added.push_back({site, wish.point});
     }
   }
 }

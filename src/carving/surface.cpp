@@ -16,7 +16,7 @@ using Corners = std::array<VertexHandle, 3>;
 bool is_observed(const Corners& corners, double max_edge_m) {
   for (int k = 0; k < 3; ++k) {
     const double edge = CGAL::squared_distance(corners[k]->point(), corners[(k + 1) % 3]->point());
-    if (corners[k]->info().steiner || edge > max_edge_m * max_edge_m) {
+    if (corners[k]->info().rays == 0 || edge > max_edge_m * max_edge_m) {
       return false;
     }
   }

@@ -33,11 +33,10 @@ struct CellInfo {
 struct VertexInfo {
   std::uint32_t id = 0;          ///< its site
   std::uint32_t free_cells = 0;  ///< incident cells inside the manifold free space
-  std::uint32_t rays = 0;        ///< rays that end here
-  bool steiner = false;
-  bool is_dirty = true;     ///< cells around it changed since the last growth
-  bool must_check = false;  ///< a cell around it was taken into or out of the free space
-  LabelEvidence labels;     ///< labels of the points that this vertex stands for
+  std::uint32_t rays = 0;        ///< rays that end on a surface here
+  bool is_dirty = true;          ///< cells around it changed since the last growth
+  bool must_check = false;       ///< a cell around it was taken into or out of the free space
+  LabelEvidence labels;          ///< labels of the points that this vertex stands for
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

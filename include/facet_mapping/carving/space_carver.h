@@ -49,6 +49,8 @@ struct CarvingFrame {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     Label label = kUnlabelled;
     float sigma = 0.0F;  ///< standard deviation along the ray, metres
+    bool open =
+        false;  ///< the ray only carves: there is no surface at its end (sky, moving things)
   };
   std::vector<Ray> rays;
 };
