@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/mapping/labeled_map.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace facet_mapping {
@@ -18,6 +21,14 @@ void validate(const MapConfig& config) {
   if (!(config.keyframe_translation_m >= 0.0) || !(config.keyframe_rotation_deg >= 0.0)) {
     throw std::invalid_argument(
         "map: keyframe_translation_m and keyframe_rotation_deg must be >= 0");
+  }
+  if (config.frozen_beyond_m != 0.0 && !(config.frozen_beyond_m >= config.max_range_m)) {
+    throw std::invalid_argument(
+        "map: frozen_beyond_m must be 0 (never) or at least max_range_m, since points keep coming "
+        "from within that range");
+  }
+  if (!(config.memory_budget_mb >= 0.0)) {
+    throw std::invalid_argument("map: memory_budget_mb must be 0 (no limit) or positive");
   }
 }
 
@@ -51,7 +62,7 @@ bool LabeledMap::admit(const LabeledPoint& point,
     return false;
   }
   const double range = point.position.cast<double>().norm();
-  if (range < config_.min_range_m || range > config_.max_range_m) {
+  if (range < config_.min_range_m || range > range_scale_ * config_.max_range_m) {
     ++report->out_of_range;
     return false;
   }
@@ -69,6 +80,11 @@ bool LabeledMap::admit(const LabeledPoint& point,
   if (info->ignore) {
     ray->label = kUnlabelled;
   }
+  ray->open = info->sky;
+  if (info->dynamic && config_.dynamic == DynamicPolicy::kCarve) {
+    ++report->dynamic_carving;
+    ray->open = true;
+  }
   if (info->dynamic && config_.dynamic == DynamicPolicy::kDrop) {
     ++report->dynamic_dropped;
     return false;
@@ -85,39 +101,137 @@ FrameReport LabeledMap::add(const PointFrame& frame, const std::string& sensor) 
   if (!report.keyframe) {
     return report;
   }
-  CarvingFrame carving_frame;
-  carving_frame.center = frame.world_from_sensor.translation();
-  carving_frame.rays.reserve(frame.points.size());
-  for (const LabeledPoint& point : frame.points) {
-    CarvingFrame::Ray ray;
-    if (admit(point, &report, &ray)) {
-      ray.point = frame.world_from_sensor * point.position.cast<double>();
-      carving_frame.rays.push_back(ray);
-    }
-  }
-  report.used = carving_frame.rays.size();
-  pending_.push_back(std::move(carving_frame));
-  ++keyframes_;
+  const CarvingFrame rays = carving_frame(frame, &report);
+  report.used = rays.rays.size();
+  const auto id = static_cast<KeyframeId>(keyframe_count_++);
+  held_[id] = {frame, sensor, 0};
+  pending_.push_back(id);
+  newest_position_ = frame.world_from_sensor.translation();
   last_stamp_ = frame.stamp;
   return report;
 }
 
-bool LabeledMap::update() {
-  if (pending_.empty()) {
+CarvingFrame LabeledMap::carving_frame(const PointFrame& frame, FrameReport* report) const {
+  CarvingFrame rays;
+  rays.center = frame.world_from_sensor.translation();
+  rays.rays.reserve(frame.points.size());
+  for (const LabeledPoint& point : frame.points) {
+    CarvingFrame::Ray ray;
+    if (admit(point, report, &ray)) {
+      ray.point = frame.world_from_sensor * point.position.cast<double>();
+      rays.rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
+bool LabeledMap::move(KeyframeId id, const Eigen::Isometry3d& world_from_sensor) {
+  if (!is_rigid(world_from_sensor)) {
+    throw std::invalid_argument("map: the new pose of keyframe " + std::to_string(id) +
+                                " is not a rigid transform");
+  }
+  if (held_.count(id) == 0) {
     return false;
   }
-  const std::vector<CarvingFrame> batch = std::exchange(pending_, {});
-  carver_.insert(batch);
-  surface_ = carver_.extract_surface();
+  moves_[id] = world_from_sensor;
   return true;
+}
+
+bool LabeledMap::update() {
+  if (pending() == 0) {
+    return false;
+  }
+  integrate();
+  surface_ = carver_.extract_surface();
+  freeze();
+  obey_budget();
+  return true;
+}
+
+void LabeledMap::integrate() {
+  // What the last update froze is with its owner by now.
+  if (std::isfinite(freeze_line_.radius_m)) {
+    const double reach = freeze_line_.radius_m + range_scale_ * config_.max_range_m;
+    carver_.forget_beyond(freeze_line_.center, reach);
+  }
+  std::vector<FrameId> removed;
+  for (const auto& [id, pose] : moves_) {
+    Held& held = held_.at(id);
+    held.frame.world_from_sensor = pose;
+    if (std::find(pending_.begin(), pending_.end(), id) == pending_.end()) {
+      removed.push_back(held.carving_id);
+      pending_.push_back(id);
+    }
+  }
+  moves_.clear();
+  std::vector<CarvingFrame> added;
+  for (const KeyframeId id : pending_) {
+    FrameReport ignored;  // was told when the frame came
+    added.push_back(carving_frame(held_.at(id).frame, &ignored));
+  }
+  const std::vector<FrameId> ids = carver_.update(removed, added);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    held_.at(pending_[k]).carving_id = ids[k];
+  }
+  pending_.clear();
+}
+
+void LabeledMap::freeze() {
+  if (config_.frozen_beyond_m <= 0.0 && config_.memory_budget_mb <= 0.0) {
+    return;
+  }
+  for (auto held = held_.begin(); held != held_.end();) {
+    held = carver_.holds(held->second.carving_id) ? std::next(held) : held_.erase(held);
+  }
+  const double radius =
+      config_.frozen_beyond_m > 0.0 ? config_.frozen_beyond_m : 2.0 * config_.max_range_m;
+  const bool is_limited = config_.frozen_beyond_m > 0.0 || range_scale_ < 1.0;
+  if (is_limited) {
+    freeze_line_ = {newest_position_, range_scale_ * radius};
+  }
+}
+
+void LabeledMap::obey_budget() {
+  constexpr double kStep = 0.8;
+  constexpr double kLeast = 0.05;
+  constexpr double kRoomy = 0.5;
+  if (config_.memory_budget_mb <= 0.0) {
+    return;
+  }
+  const double share = static_cast<double>(bytes()) / (config_.memory_budget_mb * 1024.0 * 1024.0);
+  if (share > 1.0) {
+    range_scale_ = std::max(kLeast, kStep * range_scale_);
+  } else if (share < kRoomy && range_scale_ < 1.0) {
+    range_scale_ = std::min(1.0, range_scale_ / kStep);
+  }
+}
+
+std::map<KeyframeId, Keyframe> LabeledMap::movable_keyframes() const {
+  std::map<KeyframeId, Keyframe> keyframes;
+  for (const auto& [id, held] : held_) {
+    keyframes[id] = {held.frame.stamp, held.sensor, held.frame.world_from_sensor};
+  }
+  return keyframes;
+}
+
+std::size_t LabeledMap::bytes() const {
+  std::size_t bytes = carver_.bytes() + surface_.bytes();
+  for (const auto& [id, held] : held_) {
+    bytes += sizeof(Held) + held.frame.points.capacity() * sizeof(LabeledPoint);
+  }
+  return bytes;
 }
 
 void LabeledMap::reset() {
   carver_ = SpaceCarver(config_.carving);
   surface_ = {};
+  held_.clear();
   pending_.clear();
+  moves_.clear();
   last_pose_.clear();
-  keyframes_ = 0;
+  freeze_line_ = {};
+  range_scale_ = 1.0;
+  keyframe_count_ = 0;
   last_stamp_ = 0.0;
 }
 

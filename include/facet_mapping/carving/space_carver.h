@@ -59,6 +59,8 @@ struct CarvingFrame {
 struct CarvedSurface {
   TriangleMesh mesh;
   std::vector<std::uint32_t> vertex_ids;  ///< one per mesh vertex
+
+  std::size_t bytes() const;  ///< of memory held
 };
 
 struct CarvingStats {
