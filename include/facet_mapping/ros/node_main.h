@@ -47,6 +47,8 @@ int run_node(int argc, char** argv, const std::string& name) {
     return 0;
   }
   ros::init(argc, argv, name);
+  // The end of the last handle ends rosconsole, too, and with it the sentence below.
+  const ros::NodeHandle keeps_the_log_open;
   std::unique_ptr<Node> node;
   try {
     node = std::make_unique<Node>(ros::NodeHandle(), ros::NodeHandle("~"));
