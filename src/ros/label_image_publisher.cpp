@@ -39,7 +39,9 @@ LabelImagePublisher::LabelImagePublisher(ros::NodeHandle private_nh,
       jobs_(1, [diagnostics](const std::string& error) {
         diagnostics->complain("label image failed", error);
       }) {
-  wide_ids_ = !labels_.empty() && labels_.classes().back().id > kLargestNarrowId;
+  for (const ClassInfo& info : labels_.classes()) {  // ignored ones never come out of the mesh
+    wide_ids_ = wide_ids_ || (!info.ignore && info.id > kLargestNarrowId);
+  }
 }
 
 void LabelImagePublisher::update(const std_msgs::Header& header) {

@@ -40,8 +40,10 @@ class BadInputTest : public testing::Test {
     const boost::function<void(const sensor_msgs::PointCloud2ConstPtr&)> ignore = [](const auto&) {
     };
     points_sub_ = ros::NodeHandle().subscribe<sensor_msgs::PointCloud2>("points", 10, ignore);
-    ASSERT_TRUE(
-        wait_until([] { return car_->is_connected() && cloud_pub_.getNumSubscribers() > 0; }));
+    connected_ = wait_until([] {
+      return car_->is_connected() && cloud_pub_.getNumSubscribers() > 0 &&
+             points_sub_.getNumPublishers() > 0;
+    });
     wait_until([] { return false; }, 0.5);  // stereo_points must know its subscriber
   }
   void SetUp() override { ASSERT_TRUE(connected_); }

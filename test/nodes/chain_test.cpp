@@ -87,7 +87,17 @@ class ChainTest : public testing::Test {
     if (!wait_until([&] { return car.is_connected(); })) {
       return false;
     }
-    for (int k = 0; k < kFrames; ++k) {
+    // The nodes connect to each other in their own time, and until then stereo_points is lazy.
+    const auto has_begun = [&] {
+      car.drive_to(0.0, ros::Time::now());
+      wait_until([] { return false; }, 0.3);
+      return diagnostics.value("mapper", "keyframes") == 1 &&
+             diagnostics.value("refiner", "keyframes") == 1;
+    };
+    if (!wait_until(has_begun, 60.0)) {
+      return false;
+    }
+    for (int k = 1; k < kFrames; ++k) {
       car.drive_to(k * kStepM, ros::Time::now());
       wait_until([] { return false; }, 0.1);
     }
@@ -147,10 +157,10 @@ TEST_F(ChainTest, GetMeshFiltersByRegionAndClass) {
   EXPECT_EQ(call<GetMesh>("mapper/get_mesh", request).status.code, Status::INVALID_ARGUMENT);
 }
 
-TEST_F(ChainTest, PaletteIsLatchedAndImagesOfTheClassesCome) {
+TEST_F(ChainTest, PaletteIsLatched) {
   const LastMessage<ClassPalette> palette("mapper/palette");
   EXPECT_TRUE(palette.wait());
-  EXPECT_EQ(palette.get()->classes.size(), 19U);
+  EXPECT_EQ(palette.get()->classes.at(kBuilding).name, "building");
 }
 
 TEST_F(ChainTest, DryRunChangesNothing) {
