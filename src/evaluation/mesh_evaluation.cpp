@@ -113,7 +113,7 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const EvaluationOptions& options,
                              const EvaluationProgress& progress) {
   const std::vector<std::size_t> views = chosen_views(dataset, options);
-  const TriangleMesh shown = shown_facets(mesh, labels, options.hide_unlabelled, options.hide_sky);
+  const TriangleMesh shown = shown_facets(mesh, labels, options.hidden);
   Evaluator evaluator(shown, labels, dataset, options);
   for (std::size_t k = 0; k < views.size(); ++k) {
     evaluator.add_view(views[k]);
@@ -130,18 +130,15 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
   return result;
 }
 
-TriangleMesh shown_facets(const TriangleMesh& mesh,
-                          const LabelSet& labels,
-                          bool hide_unlabelled,
-                          bool hide_sky) {
-  if (mesh.labels.empty() || !(hide_unlabelled || hide_sky)) {
-    return mesh;
-  }
+TriangleMesh shown_facets(const TriangleMesh& mesh, const LabelSet& labels, const Hidden& hidden) {
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t f = 0; f < keep.size(); ++f) {
-    const ClassInfo* info = labels.find(mesh.labels[f]);
+    const Label label = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
+    const ClassInfo* info = labels.find(label);
     const bool is_sky = info != nullptr && info->sky;
-    keep[f] = !(hide_unlabelled && mesh.labels[f] == kUnlabelled) && !(hide_sky && is_sky);
+    const bool is_unlabelled = !mesh.labels.empty() && label == kUnlabelled;
+    keep[f] = !(hidden.gaps && is_gap(mesh, f)) && !(hidden.unlabelled && is_unlabelled) &&
+              !(hidden.sky && is_sky);
   }
   return select_facets(mesh, keep);
 }

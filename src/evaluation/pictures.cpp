@@ -102,16 +102,18 @@ cv::Mat error_picture(const cv::Mat& rendered,
   cv::absdiff(rendered, truth, difference);
   cv::Mat levels;
   difference.convertTo(levels, CV_8U, 255.0 / max_error_m);
-  cv::Mat errors = colored(levels);
-  errors.setTo(cv::Scalar(255, 0, 255), rendered <= 0.0F);
   cv::Mat is_true = truth > 0.0F;
-  errors.setTo(cv::Scalar(0, 0, 0), ~is_true);
+  cv::Mat is_missing = is_true & (rendered <= 0.0F);
+  levels.setTo(cv::Scalar(0), ~is_true);
   constexpr double kSparse = 0.2;  // share of pixels below which single pixels would not be seen
   if (cv::countNonZero(is_true) < kSparse * static_cast<double>(truth.total())) {
     const cv::Mat block = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
-    cv::dilate(errors, errors, block);
-    cv::dilate(is_true, is_true, block);
+    for (cv::Mat* mask : {&levels, &is_true, &is_missing}) {
+      cv::dilate(*mask, *mask, block);
+    }
   }
+  cv::Mat errors = colored(levels);
+  errors.setTo(cv::Scalar(255, 0, 255), is_missing);
   cv::Mat gray;
   cv::cvtColor(background, gray, cv::COLOR_BGR2GRAY);
   cv::Mat picture;

@@ -35,9 +35,14 @@ void add_selection(CLI::App& app, Options& options) {
       ->check(CLI::PositiveNumber)
       ->excludes(views);
   app.add_flag("--hide-unlabelled",
-               options.evaluation.hide_unlabelled,
+               options.evaluation.hidden.unlabelled,
                "Take facets without a class away first");
-  app.add_flag("--hide-sky", options.evaluation.hide_sky, "Take facets of sky classes away first");
+  app.add_flag(
+      "--hide-sky", options.evaluation.hidden.sky, "Take facets of sky classes away first");
+  app.add_flag(
+      "--keep-gaps{false}",
+      options.evaluation.hidden.gaps,
+      "Keep facets that only close the surface (views = 0); else they are taken away first");
 }
 
 void add_measures(CLI::App& app, Options& options) {

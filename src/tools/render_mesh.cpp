@@ -26,13 +26,31 @@ using namespace facet_mapping;
 
 enum class Mode { kLabels, kDepth, kNormals, kShaded, kError, kOverlay };
 
+const std::map<std::string, Mode>& modes() {
+  static const std::map<std::string, Mode> all{{"labels", Mode::kLabels},
+                                               {"depth", Mode::kDepth},
+                                               {"normals", Mode::kNormals},
+                                               {"shaded", Mode::kShaded},
+                                               {"error", Mode::kError},
+                                               {"overlay", Mode::kOverlay}};
+  return all;
+}
+
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, mode] : modes()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
 struct Options {
   std::string mesh;
   std::string output;
   std::string dataset;
   std::string labels;
   std::string size;
-  Mode mode = Mode::kShaded;
+  std::string mode = "shaded";
   std::size_t view = 0;
   bool bird = false;
   std::vector<double> eye;
@@ -41,8 +59,7 @@ struct Options {
   double fov_deg = 60.0;
   double max_error_m = 0.5;
   double opacity = 0.5;
-  bool show_unlabelled = false;
-  bool hide_sky = false;
+  Hidden hidden;
   bool legend = false;
 };
 
@@ -69,20 +86,14 @@ void add_camera_options(CLI::App& app, Options& options) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  const std::map<std::string, Mode> modes{{"labels", Mode::kLabels},
-                                          {"depth", Mode::kDepth},
-                                          {"normals", Mode::kNormals},
-                                          {"shaded", Mode::kShaded},
-                                          {"error", Mode::kError},
-                                          {"overlay", Mode::kOverlay}};
   app.add_option("MESH.ply", options.mesh, "Mesh to draw")->required();
   app.add_option("-o,--output", options.output, "Picture to write (.png or .jpg)")->required();
   app.add_option("--mode",
                  options.mode,
                  "labels, depth, normals, shaded, error (against the view's "
                  "ground truth) or overlay (labels over the view's image)")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
-      ->default_str("shaded");
+      ->check(CLI::IsMember(mode_names()))
+      ->capture_default_str();
   add_camera_options(app, options);
   app.add_option("--labels", options.labels, "Class list (YAML); default: the mesh's own");
   app.add_option("--max-error", options.max_error_m, "Error drawn in full red, metres")
@@ -91,10 +102,12 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--opacity", options.opacity, "Strength of the labels in --mode overlay")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("--show-unlabelled",
-               options.show_unlabelled,
-               "Draw facets without a class, too, where other facets have one");
-  app.add_flag("--hide-sky", options.hide_sky, "Do not draw facets of sky classes");
+  app.add_flag("--show-gaps{false}",
+               options.hidden.gaps,
+               "Draw facets that only close the surface (views = 0), too");
+  app.add_flag(
+      "--hide-unlabelled", options.hidden.unlabelled, "Do not draw facets without a class");
+  app.add_flag("--hide-sky", options.hidden.sky, "Do not draw facets of sky classes");
   app.add_flag("--legend", options.legend, "Say below the picture what the colours mean");
   app.footer(
       "Examples:\n"
@@ -216,7 +229,7 @@ class Painter {
 
 cv::Mat paint(const MeshFile& file, const std::optional<Dataset>& dataset, const Options& options) {
   Painter painter(file, chosen_view(dataset, options));
-  switch (options.mode) {
+  switch (modes().at(options.mode)) {
     case Mode::kLabels:
       return painter.labels(options.legend);
     case Mode::kDepth:
@@ -256,7 +269,7 @@ void run(const Options& options) {
   if (!options.labels.empty()) {
     file.labels = LabelSet::load(options.labels);
   }
-  file.mesh = shown_facets(file.mesh, file.labels, !options.show_unlabelled, options.hide_sky);
+  file.mesh = shown_facets(file.mesh, file.labels, options.hidden);
   std::optional<Dataset> dataset;
   if (!options.dataset.empty()) {
     dataset = read_dataset(options.dataset);

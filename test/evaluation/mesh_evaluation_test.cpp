@@ -110,12 +110,28 @@ TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
   add_wall(1.25, -20, 20, 10, mesh);
   EvaluationOptions options;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.75, 1e-6);
-  options.hide_sky = true;
+  options.hidden.sky = true;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.5, 1e-6);
-  options.hide_unlabelled = true;
+  options.hidden.unlabelled = true;
   const MeshEvaluation evaluation = evaluate_mesh(mesh, labels_, dataset_, options);
   EXPECT_NEAR(evaluation.depth.mae_m, 0.0, 1e-6);
   EXPECT_EQ(evaluation.facets, 2U);
+}
+
+TEST_F(MeshEvaluationTest, GapsAreHiddenUnlessAskedFor) {
+  TriangleMesh mesh;
+  add_wall(2.0, -20, 20, 2, mesh);
+  add_wall(1.5, -20, 20, 2, mesh);
+  mesh.views = {4, 4, 0, 0};
+  Hidden hidden;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).views, (std::vector<std::uint16_t>{4, 4}));
+  hidden.gaps = false;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
+  hidden.gaps = hidden.unlabelled = hidden.sky = true;
+  mesh.labels.clear();  // without labels nothing is unlabelled
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 2U);
+  mesh.views.clear();
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
 }
 
 TEST_F(MeshEvaluationTest, GroundTruthOfAnotherSizeIsComparedAtItsOwn) {

@@ -3,7 +3,6 @@
 #include "facet_mapping/synthetic/street.h"
 
 #include <cmath>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>

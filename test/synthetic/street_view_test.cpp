@@ -102,6 +102,23 @@ TEST_F(StreetViewTest, FacetsFaceTheCamera) {
   EXPECT_LE(behind, seen / 500);
 }
 
+TEST_F(StreetViewTest, NothingShowsThroughTheGround) {
+  View view = kitti_rig(true).left_view(Eigen::Isometry3d::Identity());
+  for (const StreetPose& pose : short_street().trajectory) {
+    view.world_from_cam = pose.map_from_left;
+    const FacetImage image = renderer_->render_facets(view);
+    int holes = 0;
+    for (int y = 0; y < image.facets.rows; ++y) {
+      for (int x = 0; x < image.facets.cols; ++x) {
+        const Eigen::Vector3d ray =
+            view.world_from_cam.linear() * view.camera.ray(Eigen::Vector2d(x, y));
+        holes += image.facets.at<std::int32_t>(y, x) < 0 && ray.z() < 0.0 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(holes, 0) << "at " << pose.stamp << " s";
+  }
+}
+
 TEST_F(StreetViewTest, RightImageShowsTheLeftOneShiftedByTheDisparity) {
   std::vector<int> matched;
   std::vector<int> shifted;
