@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLogPeriodS = 5.0;      // of each reason
 constexpr double kFreshProblemS = 10.0;  // how long a problem keeps the status at WARN
-constexpr double kPublishPeriodS = 1.0;
+constexpr double kDefaultPeriodS = 1.0;
 
 }  // namespace
 
@@ -19,12 +19,13 @@ NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandl
   updater_.setHardwareID("none");
   updater_.add("mapping", this, &NodeDiagnostics::fill);
   timer_ =
-      nh.createWallTimer(ros::WallDuration(kPublishPeriodS), [this](const ros::WallTimerEvent&) {
-        if (refresh_) {
-          refresh_();
-        }
-        updater_.force_update();
-      });
+      nh.createWallTimer(ros::WallDuration(private_nh.param("diagnostic_period", kDefaultPeriodS)),
+                         [this](const ros::WallTimerEvent&) {
+                           if (refresh_) {
+                             refresh_();
+                           }
+                           updater_.force_update();
+                         });
 }
 
 void NodeDiagnostics::on_publish(std::function<void()> refresh) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whoever subscribes late gets the whole mesh, alone; everybody else only what changed.
-#include <array>
 #include <cstdio>
+#include <string>
 
 #include "node_harness.h"
 #include <gtest/gtest.h>
@@ -13,6 +13,80 @@
 
 namespace facet_mapping::test {
 namespace {
+
+/// What a listener has after its first and its second message.
+struct Heard {
+  std::size_t full_messages = 0;
+  bool missed = false;
+  std::uint32_t sequence = 0;
+  std::size_t facets = 0;
+  std::size_t vertices = 0;
+
+  bool operator==(const Heard& other) const {
+    return full_messages == other.full_messages && missed == other.missed &&
+           sequence == other.sequence && facets == other.facets && vertices == other.vertices;
+  }
+};
+
+Heard heard_by(const MeshEar& ear) {
+  const TriangleMesh mesh = ear.receiver().mesh();
+  EXPECT_TRUE(check_manifold(mesh).is_closed_manifold());
+  return {ear.full_messages(),
+          ear.missed_something(),
+          ear.receiver().sequence(),
+          mesh.triangles.size(),
+          mesh.vertices.size()};
+}
+
+void print(const Heard& heard) {
+  std::printf("%zu %d %u %zu %zu\n",
+              heard.full_messages,
+              heard.missed ? 1 : 0,
+              heard.sequence,
+              heard.facets,
+              heard.vertices);
+  std::fflush(stdout);
+}
+
+/// A second process, since the subscribers of one process share their connection.
+class OtherProcess {
+ public:
+  OtherProcess() : pipe_(popen((own_path + " --listen").c_str(), "r")) {}
+  ~OtherProcess() { pclose(pipe_); }
+
+  Heard next() {
+    Heard heard;
+    int missed = -1;
+    EXPECT_EQ(std::fscanf(pipe_,
+                          "%zu %d %u %zu %zu",
+                          &heard.full_messages,
+                          &missed,
+                          &heard.sequence,
+                          &heard.facets,
+                          &heard.vertices),
+              5);
+    heard.missed = missed != 0;
+    return heard;
+  }
+
+  static std::string own_path;
+
+ private:
+  FILE* pipe_;
+};
+
+std::string OtherProcess::own_path;
+
+int listen() {
+  const MeshEar ear("mapper/mesh");
+  for (std::size_t messages = 1; messages <= 2; ++messages) {
+    if (!wait_until([&] { return ear.messages() >= messages; })) {
+      return 1;
+    }
+    print(heard_by(ear));
+  }
+  return 0;
+}
 
 class LateJoinerTest : public testing::Test {
  protected:
@@ -36,68 +110,55 @@ class LateJoinerTest : public testing::Test {
   double x_m_ = 0.0;
 };
 
-/// Is the first mesh message that another process gets a full one? (All subscribers of one process
-/// share a connection, so that a second one in this process would be no newcomer.)
-std::string newcomers_first_is_full() {
-  const std::string command = "rostopic echo -n 1 " + ros::names::resolve("mapper/mesh") + "/full";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string output;
-  std::array<char, 256> line{};
-  while (pipe != nullptr && fgets(line.data(), line.size(), pipe) != nullptr) {
-    output += line.data();
-  }
-  pclose(pipe);
-  return output;
+TEST_F(LateJoinerTest, FullMeshForTheNewcomerAndDeltasForAll) {
+  const MeshEar ear("mapper/mesh");
+  ASSERT_TRUE(wait_until([&] { return ear.messages() == 1; }));
+  drive_on(ear);
+  drive_on(ear);
+  ASSERT_GT(heard_by(ear).facets, 0U);
+  OtherProcess late;
+  EXPECT_EQ(late.next(), heard_by(ear));  // which got its own full mesh, of nothing, at the start
+  drive_on(ear);
+  EXPECT_EQ(ear.full_messages(), 1U);
+  EXPECT_FALSE(ear.missed_something());
+  EXPECT_EQ(late.next(), heard_by(ear));
 }
 
-TEST_F(LateJoinerTest, FullMeshForTheNewcomerAndDeltasForAll) {
-  auto first = std::make_unique<MeshEar>("mapper/mesh");
-  ASSERT_TRUE(wait_until([&] { return first->messages() == 1; }));
-  drive_on(*first);
-  drive_on(*first);
-  EXPECT_NE(newcomers_first_is_full().find("True"), std::string::npos);
-  drive_on(*first);
-  EXPECT_EQ(first->full_messages(), 1U);
-  EXPECT_FALSE(first->missed_something());
-
-  const TriangleMesh by_deltas = first->receiver().mesh();
-  const std::string map_id = first->receiver().map_id();
-  const std::uint32_t sequence = first->receiver().sequence();
-  first.reset();
-  wait_until([] { return false; }, 0.5);  // the connection has to be closed
-  const MeshEar late("mapper/mesh");
-  ASSERT_TRUE(wait_until([&] { return late.messages() == 1; }));
-  EXPECT_EQ(late.full_messages(), 1U);
-  EXPECT_EQ(late.receiver().map_id(), map_id);
-  EXPECT_EQ(late.receiver().sequence(), sequence);
-  EXPECT_EQ(late.receiver().mesh().vertices, by_deltas.vertices);
-  EXPECT_EQ(late.receiver().mesh().triangles, by_deltas.triangles);
-  EXPECT_EQ(late.receiver().mesh().labels, by_deltas.labels);
-  EXPECT_TRUE(check_manifold(by_deltas).is_closed_manifold());
-
+TEST_F(LateJoinerTest, MarkersComeToANewcomerAndResetEmptiesTheMesh) {
+  const MeshEar ear("mapper/mesh");
+  ASSERT_TRUE(wait_until([&] { return ear.has_facets(); }));
   std::size_t markers = 0;
-  const auto subscriber = ros::NodeHandle().subscribe<visualization_msgs::MarkerArray>(
-      "mapper/mesh_marker", 1, [&](const visualization_msgs::MarkerArrayConstPtr& array) {
+  const boost::function<void(const visualization_msgs::MarkerArrayConstPtr&)> receive =
+      [&](const visualization_msgs::MarkerArrayConstPtr& array) {
         markers = array->markers.size();
         for (const visualization_msgs::Marker& marker : array->markers) {
-          EXPECT_EQ(marker.points.empty(), marker.action == visualization_msgs::Marker::DELETE);
+          EXPECT_FALSE(marker.action == visualization_msgs::Marker::ADD && marker.points.empty());
         }
-      });
+      };
+  const auto subscriber = ros::NodeHandle().subscribe("mapper/mesh_marker", 1, receive);
   EXPECT_TRUE(wait_until([&] { return markers > 0; }));
 
+  const std::string map_id = ear.receiver().map_id();
   Reset reset;
   ASSERT_TRUE(ros::service::call("mapper/reset", reset));
   EXPECT_EQ(reset.response.status.code, Status::OK);
-  ASSERT_TRUE(wait_until([&] { return late.receiver().map_id() != map_id; }));
-  EXPECT_TRUE(late.receiver().mesh().empty());
+  ASSERT_TRUE(wait_until([&] { return ear.receiver().map_id() != map_id; }));
+  EXPECT_TRUE(ear.receiver().mesh().empty());
 }
 
 }  // namespace
 }  // namespace facet_mapping::test
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "late_joiner_test");
+  const bool is_other = argc > 1 && std::string(argv[1]) == "--listen";
+  if (!is_other) {
+    testing::InitGoogleTest(&argc, argv);
+  }
+  ros::init(argc, argv, "late_joiner_test", is_other ? ros::init_options::AnonymousName : 0);
   const ros::NodeHandle keeps_the_node_alive;
+  if (is_other) {
+    return facet_mapping::test::listen();
+  }
+  facet_mapping::test::OtherProcess::own_path = argv[0];
   return RUN_ALL_TESTS();
 }

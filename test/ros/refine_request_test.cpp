@@ -70,7 +70,7 @@ TEST(RefineRequest, WhatIsOutOfRangeIsRefused) {
   expect_refused([](auto& request) { request.iterations = -1; });
   expect_refused([](auto& request) { request.levels = 50; });
   expect_refused([](auto& request) { request.photometric = 3; });
-  expect_refused([](auto& request) { request.semantic_mode = 4; });
+  expect_refused([](auto& request) { request.semantic_mode = 5; });
   expect_refused([](auto& request) { request.time_budget = -1.0; });
   expect_refused(
       [](auto& request) { request.memory_budget = std::numeric_limits<double>::quiet_NaN(); });
