@@ -160,6 +160,7 @@ TEST_F(ChainTest, GetMeshFiltersByRegionAndClass) {
 TEST_F(ChainTest, PaletteIsLatched) {
   const LastMessage<ClassPalette> palette("mapper/palette");
   EXPECT_TRUE(palette.wait());
+  ASSERT_EQ(palette.get()->classes.size(), 20U);  // 19 train ids and void
   EXPECT_EQ(palette.get()->classes.at(kBuilding).name, "building");
 }
 
