@@ -9,7 +9,7 @@
 
 #include "labeling/facet_field.h"
 #include "labeling/facet_graph.h"
-#include "labeling/vertex_votes.h"
+#include "labeling/votes.h"
 
 #include "facet_mapping/labeling/alpha_expansion.h"
 
@@ -36,7 +36,9 @@ void check_config(const LabelingConfig& c) {
   require(c.max_sweeps >= 0, "max_sweeps must not be negative");
 }
 
-void check_views(const std::vector<LabeledView>& views, const std::vector<FacetImage>& renderings) {
+void check_views(const TriangleMesh& mesh,
+                 const std::vector<LabeledView>& views,
+                 const std::vector<FacetImage>& renderings) {
   require(views.size() == renderings.size(),
           "give one rendering per view, not " + std::to_string(renderings.size()) + " for " +
               std::to_string(views.size()));
@@ -49,8 +51,13 @@ void check_views(const std::vector<LabeledView>& views, const std::vector<FacetI
     require(
         labels.type() == CV_16UC1 && labels.size() == size,
         "the segmentation of view " + std::to_string(k) + " must be CV_16UC1 of the camera's size");
-    require(renderings[k].depth.size() == size,
+    require(renderings[k].depth.size() == size && renderings[k].facets.size() == size &&
+                renderings[k].facets.type() == CV_32SC1,
             "the rendering of view " + std::to_string(k) + " does not have the camera's size");
+    double largest = -1.0;
+    cv::minMaxLoc(renderings[k].facets, nullptr, &largest);
+    require(largest < static_cast<double>(mesh.triangles.size()),
+            "the rendering of view " + std::to_string(k) + " shows another mesh");
   }
 }
 
@@ -78,7 +85,7 @@ std::size_t count_changed(const TriangleMesh& mesh, const std::vector<Label>& la
   return changed;
 }
 
-LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const LabelingConfig& config) {
+LabelingResult solve(const TriangleMesh& mesh, Votes votes, const LabelingConfig& config) {
   const FacetGraph graph = make_facet_graph(mesh, config);
   const FacetField field = make_field(mesh, votes, graph, config);
   PottsSolution solution =
@@ -98,14 +105,24 @@ LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const Labeling
 
 }  // namespace
 
+std::vector<Label> labels_never_on_facets(const LabelSet& labels) {
+  std::vector<Label> never;
+  for (const ClassInfo& info : labels.classes()) {
+    if (info.sky) {
+      never.push_back(info.id);
+    }
+  }
+  return never;
+}
+
 LabelingResult label_facets(const TriangleMesh& mesh,
                             const std::vector<LabeledView>& views,
                             const std::vector<FacetImage>& renderings,
                             const LabelingConfig& config) {
   check_config(config);
   validate(mesh);
-  check_views(views, renderings);
-  VertexVotes votes = count_votes(mesh, views, renderings, config);
+  check_views(mesh, views, renderings);
+  Votes votes = count_votes(mesh, views, renderings, config);
   LabelingResult result =
       votes.classes.empty() ? unlabelled(mesh) : solve(mesh, std::move(votes), config);
   result.changed = count_changed(mesh, result.labels);
