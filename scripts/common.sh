@@ -2,7 +2,8 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${FACET_MAPPING_BUILD:-$root/build}
+# Not named `build`: rosrun does not look for programs in a package's folder of that name.
+build=${FACET_MAPPING_BUILD:-$root/workspace}
 step_number=0
 
 # Debian's own python3 and cmake first: the ROS packages are built for them.

@@ -12,6 +12,7 @@
 #include "labeling/votes.h"
 
 #include "facet_mapping/labeling/alpha_expansion.h"
+#include "facet_mapping/render/observed_mesh.h"
 
 namespace facet_mapping {
 namespace {
@@ -103,6 +104,39 @@ LabelingResult solve(const TriangleMesh& mesh, Votes votes, const LabelingConfig
   return result;
 }
 
+/// Facet of the whole mesh -> facet of the observed part, kNotObserved for gaps.
+std::vector<std::int32_t> observed_index(const TriangleMesh& whole, const ObservedMesh& observed) {
+  std::vector<std::int32_t> index(whole.triangles.size(), kNotObserved);
+  for (std::size_t k = 0; k < observed.whole_facets().size(); ++k) {
+    index[observed.whole_facets()[k]] = static_cast<std::int32_t>(k);
+  }
+  return index;
+}
+
+/// Gaps take no part: they would carry classes across space that nobody saw.
+LabelingResult label_observed(const TriangleMesh& whole,
+                              const std::vector<LabeledView>& views,
+                              const std::vector<FacetImage>& renderings,
+                              const LabelingConfig& config) {
+  const ObservedMesh observed(whole);
+  Votes votes =
+      count_votes(observed.mesh(), views, renderings, observed_index(whole, observed), config);
+  if (votes.classes.empty()) {
+    return unlabelled(whole);
+  }
+  const LabelingResult part = solve(observed.mesh(), std::move(votes), config);
+  LabelingResult result = unlabelled(whole);
+  for (std::size_t k = 0; k < part.labels.size(); ++k) {
+    const std::uint32_t f = observed.whole_facets()[k];
+    result.labels[f] = part.labels[k];
+    result.confidence[f] = part.confidence[k];
+    result.views[f] = part.views[k];
+  }
+  result.energy_before = part.energy_before;
+  result.energy_after = part.energy_after;
+  return result;
+}
+
 }  // namespace
 
 std::vector<Label> labels_never_on_facets(const LabelSet& labels) {
@@ -122,11 +156,19 @@ LabelingResult label_facets(const TriangleMesh& mesh,
   check_config(config);
   validate(mesh);
   check_views(mesh, views, renderings);
-  Votes votes = count_votes(mesh, views, renderings, config);
-  LabelingResult result =
-      votes.classes.empty() ? unlabelled(mesh) : solve(mesh, std::move(votes), config);
+  LabelingResult result = label_observed(mesh, views, renderings, config);
   result.changed = count_changed(mesh, result.labels);
   return result;
+}
+
+void apply_labeling(const LabelingResult& labeling, TriangleMesh* mesh) {
+  std::vector<std::uint16_t> views = labeling.views;
+  for (std::size_t f = 0; f < views.size(); ++f) {
+    views[f] = is_gap(*mesh, f) ? 0 : std::max<std::uint16_t>(views[f], 1);
+  }
+  mesh->labels = labeling.labels;
+  mesh->confidence = labeling.confidence;
+  mesh->views = std::move(views);
 }
 
 }  // namespace facet_mapping

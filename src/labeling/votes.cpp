@@ -89,6 +89,7 @@ void add_vertices(const TriangleMesh& mesh,
 /// One view's votes for the facets by the pixels that show them; marks those that it sees.
 void add_pixels(const LabeledView& view,
                 const FacetImage& rendering,
+                const std::vector<std::int32_t>& facet_of,
                 const Columns& columns,
                 Votes* votes,
                 Flags* sees) {
@@ -98,10 +99,12 @@ void add_pixels(const LabeledView& view,
     const auto* facets = rendering.facets.ptr<std::int32_t>(y);
     for (int x = 0; x < view.labels.cols; ++x) {
       const int column = columns.of(labels[x]);
-      if (facets[x] < 0 || column == kVoid) {
+      const std::int32_t facet =
+          facets[x] < 0 ? kNotObserved : facet_of[static_cast<std::size_t>(facets[x])];
+      if (facet == kNotObserved || column == kVoid) {
         continue;
       }
-      const auto f = static_cast<std::size_t>(facets[x]);
+      const auto f = static_cast<std::size_t>(facet);
       (*sees)[f] = 1;
       ++votes->pixels[f];
       if (column >= 0) {
@@ -115,6 +118,7 @@ void add_pixels(const LabeledView& view,
 void add_view(const TriangleMesh& mesh,
               const LabeledView& view,
               const FacetImage& rendering,
+              const std::vector<std::int32_t>& facet_of,
               const Columns& columns,
               const LabelingConfig& config,
               Votes* votes) {
@@ -123,7 +127,7 @@ void add_view(const TriangleMesh& mesh,
   Flags sees_facet(mesh.triangles.size(), 0);
   add_vertices(mesh, view, visibility, columns, votes, &sees_vertex);
   if (config.pixel_votes) {
-    add_pixels(view, rendering, columns, votes, &sees_facet);
+    add_pixels(view, rendering, facet_of, columns, votes, &sees_facet);
   }
   const auto mark = [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t f = range.begin(); f < range.end(); ++f) {
@@ -226,6 +230,7 @@ ClassIndex Votes::index_of(Label label) const {
 Votes count_votes(const TriangleMesh& mesh,
                   const std::vector<LabeledView>& views,
                   const std::vector<FacetImage>& renderings,
+                  const std::vector<std::int32_t>& facet_of,
                   const LabelingConfig& config) {
   const Columns columns(mesh, views, config.excluded);
   const std::size_t width = columns.labels().size();
@@ -237,7 +242,7 @@ Votes count_votes(const TriangleMesh& mesh,
   votes.facet_views.assign(mesh.triangles.size(), 0);
   for (std::size_t k = 0; k < views.size(); ++k) {
     if (!views[k].labels.empty()) {
-      add_view(mesh, views[k], renderings[k], columns, config, &votes);
+      add_view(mesh, views[k], renderings[k], facet_of, columns, config, &votes);
     }
   }
   const std::vector<Evidence> ranking = rank(mesh, votes, columns);

@@ -13,6 +13,7 @@
 namespace facet_mapping {
 
 constexpr ClassIndex kNoClass = 65535;
+constexpr std::int32_t kNotObserved = -1;
 
 /// As many pixels as the three vertices' votes are worth: they decide on facets smaller than that.
 constexpr double kVertexPixels = 5.0;
@@ -43,10 +44,12 @@ struct Votes {
 };
 
 /// Classes are those that some vertex or pixel is seen with or some facet of the mesh has, without
-/// the excluded ones. Without config.pixel_votes no pixel is counted.
+/// the excluded ones. Without config.pixel_votes no pixel is counted. `facet_of`: for each facet id
+/// of the renderings the facet of `mesh`, or kNotObserved.
 Votes count_votes(const TriangleMesh& mesh,
                   const std::vector<LabeledView>& views,
                   const std::vector<FacetImage>& renderings,
+                  const std::vector<std::int32_t>& facet_of,
                   const LabelingConfig& config);
 
 }  // namespace facet_mapping

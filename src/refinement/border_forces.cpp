@@ -52,11 +52,13 @@ class ForceCollector {
     if (facet < 0) {
       return std::nullopt;
     }
-    return tracer_.trace(facet, {static_cast<double>(from.x), static_cast<double>(from.y)},
+    return tracer_.trace(facet,
+                         {static_cast<double>(from.x), static_cast<double>(from.y)},
                          {static_cast<double>(to.x), static_cast<double>(to.y)});
   }
 
-  /// The end of p's class or of q's, whichever is there; if both end the nearer one hides the other.
+  /// The end of p's class or of q's, whichever is there; if both end the nearer one hides the
+  /// other.
   std::optional<BorderPoint> find_border(const cv::Point& p, const cv::Point& q) const {
     const std::optional<BorderPoint> from_p = trace(p, q);
     std::optional<BorderPoint> from_q = trace(q, p);

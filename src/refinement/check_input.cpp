@@ -48,6 +48,7 @@ void check_config(const RefinementConfig& config) {
   require_range(config.semantic_weight, 0.0, 1e6, "semantic_weight");
   require_range(config.smoothing, 0.0, 1.0, "smoothing");
   require_range(config.thin_plate, 0.0, 1.0, "thin_plate");
+  require_range(config.planar_smoothing, 1.0, 1e3, "planar_smoothing");
   require_window(config.ncc_window_px, 31, "ncc_window_px");
   require_window(config.semantic_window_px, 63, "semantic_window_px");
   require_range(config.min_incidence_cos, 0.01, 1.0, "min_incidence_cos");
@@ -64,6 +65,8 @@ void check_views(const std::vector<LabeledView>& views) {
   }
 }
 
-void check_mesh(const TriangleMesh& mesh) { require(!mesh.empty(), "the mesh has no facets"); }
+void check_mesh(const TriangleMesh& mesh) {
+  require(!mesh.empty(), "the mesh has no facets");
+}
 
 }  // namespace facet_mapping

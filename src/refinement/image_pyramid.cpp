@@ -22,9 +22,8 @@ Label majority(const cv::Mat& block) {
       ++votes[block.at<Label>(y, x)];
     }
   }
-  const auto best = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-    return a.second < b.second;
-  });
+  const auto best = std::max_element(
+      votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return best->first;
 }
 

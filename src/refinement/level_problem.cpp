@@ -10,18 +10,42 @@
 
 namespace facet_mapping {
 
-LevelProblem::LevelProblem(const std::vector<LabeledView>& views, const RefinementConfig& config)
-    : config_(config), partners_(views.size()) {
+namespace {
+
+cv::Mat find_sky(const cv::Mat& segmentation, const LabelSet& labels) {
+  cv::Mat sky;
+  for (const ClassInfo& c : labels.classes()) {
+    if (c.sky && !segmentation.empty()) {
+      const cv::Mat here = segmentation == static_cast<double>(c.id);
+      sky = sky.empty() ? here : cv::Mat(sky | here);
+    }
+  }
+  return sky;
+}
+
+}  // namespace
+
+LevelProblem::LevelProblem(const std::vector<LabeledView>& views,
+                           const LabelSet& labels,
+                           const RefinementConfig& config)
+    : labels_(labels), config_(config), partners_(views.size()) {
   for (const LabeledView& view : views) {
     poses_.push_back(view.view);
-    photometric_views_.push_back(
-        make_photometric_view(view.view, view.gray, config.ncc_window_px));
+    photometric_views_.push_back(make_photometric_view(view.view, view.gray, config.ncc_window_px));
     semantic_views_.push_back({view.view, view.labels});
+    sky_.push_back(find_sky(view.labels, labels));
   }
 }
 
 std::vector<SurfaceView> LevelProblem::render(const TriangleMesh& mesh) const {
-  return render_surfaces(mesh, poses_, config_.min_incidence_cos);
+  std::vector<SurfaceView> surfaces = render_surfaces(mesh, poses_, config_.min_incidence_cos);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (!sky_[i].empty()) {
+      surfaces[i].usable.setTo(cv::Scalar(0), sky_[i]);
+      surfaces[i].sampled.setTo(cv::Scalar(0), sky_[i]);
+    }
+  }
+  return surfaces;
 }
 
 void LevelProblem::choose_pairs(const TriangleMesh& mesh,
@@ -39,30 +63,53 @@ Shape LevelProblem::evaluate(TriangleMesh mesh, bool with_gradient) const {
   zncc.window_px = config_.ncc_window_px;
   shape.photometric = photometric_energy(
       shape.mesh, photometric_views_, shape.surfaces, partners_, zncc, with_gradient);
-  const bool semantic = config_.semantic != SemanticMode::kOff;
-  if (semantic || !with_gradient) {  // without the term it is only reported
-    shape.gates = semantic_gates(
-        shape.mesh, semantic_views_, shape.surfaces, config_.semantic_window_px);
-    shape.semantic = semantic_energy(shape.mesh, semantic_views_, shape.surfaces, shape.gates);
-  }
-  if (with_gradient && semantic) {
-    shape.semantic.field =
-        semantic_gradient(shape.mesh, semantic_views_, shape.surfaces, shape.gates);
-    if (config_.semantic == SemanticMode::kNormal) {
-      keep_normal_part(shape.mesh, &shape.semantic.field);
-    }
-  }
+  evaluate_semantic(&shape, with_gradient);
   return shape;
+}
+
+void LevelProblem::evaluate_semantic(Shape* shape, bool with_gradient) const {
+  const bool single = config_.semantic == SemanticMode::kNormal ||  //
+                      config_.semantic == SemanticMode::kFull;
+  if (single || !with_gradient) {  // otherwise it is only reported, before and after
+    shape->gates =
+        semantic_gates(shape->mesh, semantic_views_, shape->surfaces, config_.semantic_window_px);
+    shape->semantic = semantic_energy(shape->mesh, semantic_views_, shape->surfaces, shape->gates);
+  }
+  if (single && with_gradient) {
+    shape->semantic.field =
+        semantic_gradient(shape->mesh, semantic_views_, shape->surfaces, shape->gates);
+  }
+  if (config_.semantic == SemanticMode::kNormal && with_gradient) {
+    keep_normal_part(shape->mesh, &shape->semantic.field);
+  }
+  if (config_.semantic == SemanticMode::kPairwise) {
+    shape->pairwise = pairwise_semantic_energy(
+        shape->mesh, semantic_views_, shape->surfaces, partners_, with_gradient);
+  }
 }
 
 void LevelProblem::start(const Shape& shape) {
   umbrella_.emplace(shape.mesh);
   weights_ = smoothing_weights(shape.mesh, poses_, shape.surfaces, config_.pairs_per_view);
+  smooth_planes(shape.mesh);
+}
+
+void LevelProblem::smooth_planes(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> planar(mesh.vertices.size(), 1);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const ClassInfo* c = mesh.labels.empty() ? nullptr : labels_.find(mesh.labels[f]);
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      planar[v] &= c != nullptr && c->planar ? 1 : 0;
+    }
+  }
+  for (std::size_t k = 0; k < planar.size(); ++k) {
+    weights_[k] *= planar[k] != 0 ? config_.planar_smoothing : 1.0;
+  }
 }
 
 double LevelProblem::semantic_scale() const {
-  return config_.semantic == SemanticMode::kOff ? 0.0
-                                                : config_.semantic_weight * config_.pairs_per_view;
+  // A pixel takes part in several pairs but in one segmentation.
+  return config_.semantic_weight * config_.pairs_per_view;
 }
 
 double LevelProblem::data_energy(const Shape& shape,
@@ -71,9 +118,12 @@ double LevelProblem::data_energy(const Shape& shape,
   // The mean, not the sum: hiding pixels must not count as an improvement.
   double energy =
       config_.photometric ? shape.photometric.mean() * static_cast<double>(pixels) : 0.0;
-  if (semantic_scale() > 0.0) {
-    energy += semantic_scale() *
-              semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
+  if (config_.semantic == SemanticMode::kPairwise) {
+    const auto count = static_cast<double>(std::max<std::size_t>(1, shape.pairwise.pixels));
+    energy += config_.semantic_weight * shape.pairwise.sum / count * static_cast<double>(pixels);
+  } else if (config_.semantic != SemanticMode::kOff) {
+    energy +=
+        semantic_scale() * semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
   }
   return energy;
 }
@@ -88,7 +138,9 @@ VectorField LevelProblem::find_step(const Shape& shape, const SmoothingTerm& smo
   if (config_.photometric) {
     data.add(shape.photometric.field);
   }
-  if (semantic_scale() > 0.0) {
+  if (config_.semantic == SemanticMode::kPairwise) {
+    data.add(shape.pairwise.field, config_.semantic_weight);
+  } else if (config_.semantic != SemanticMode::kOff) {
     data.add(shape.semantic.field, semantic_scale());
   }
   std::vector<std::uint8_t> movable(weights_.size());

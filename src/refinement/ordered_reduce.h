@@ -31,9 +31,9 @@ void ordered_reduce(std::size_t count, const Work& work, const Combine& combine)
                                           }) &
           tbb::make_filter<std::size_t, Result>(tbb::filter_mode::parallel,
                                                 [&](std::size_t k) { return work(k); }) &
-          tbb::make_filter<Result, void>(
-              tbb::filter_mode::serial_in_order,
-              [&](Result result) { combine(finished++, std::move(result)); }));
+          tbb::make_filter<Result, void>(tbb::filter_mode::serial_in_order, [&](Result result) {
+            combine(finished++, std::move(result));
+          }));
 }
 
 }  // namespace facet_mapping

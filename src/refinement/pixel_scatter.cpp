@@ -34,14 +34,12 @@ void scatter_to_vertices(const TriangleMesh& mesh,
       if (facet < 0 || (f == 0.0 && h == 0.0)) {
         continue;
       }
-      const Eigen::Vector3d ray =
-          view.world_from_cam.linear() *
-          view.camera.ray({static_cast<double>(x), static_cast<double>(y)});
+      const Eigen::Vector3d ray = view.world_from_cam.linear() *
+                                  view.camera.ray({static_cast<double>(x), static_cast<double>(y)});
       const Eigen::Vector3d phi = barycentric_weights(mesh, facet, center, ray);
       for (int corner = 0; corner < 3; ++corner) {
-        field->add(mesh.triangles[facet][corner],
-                   phi[corner] * f * normals[facet],
-                   phi[corner] * h);
+        field->add(
+            mesh.triangles[facet][corner], phi[corner] * f * normals[facet], phi[corner] * h);
       }
     }
   }

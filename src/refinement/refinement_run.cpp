@@ -29,7 +29,7 @@ RefinementRun::RefinementRun(const TriangleMesh& mesh,
       labels_(labels),
       config_(config),
       progress_(progress),
-      finest_(views, config),
+      finest_(views, labels, config),
       current_(mesh) {}
 
 RefinementResult RefinementRun::run() {
@@ -38,21 +38,33 @@ RefinementResult RefinementRun::run() {
     relabel(&current_);
   }
   finest_.choose_pairs(current_, finest_.render(current_));
-  const Shape before = finest_.evaluate(current_, false);
-  result_.before = before.terms();
-  for (int level = config_.levels - 1; level >= 0 && !result_.cancelled; --level) {
-    result_.cancelled = !refine_level(level);
+  const Measured before = measure(current_);
+  result_.before = before.terms;
+  TriangleMesh best = current_;
+  for (int level = config_.levels - 1; level >= 0 && config_.iterations > 0; --level) {
+    if (!refine_level(level)) {
+      result_.cancelled = true;
+      break;
+    }
   }
   if (config_.relabel && has_segmentation()) {
     relabel(&current_);
   }
-  const Shape after = finest_.evaluate(std::move(current_), false);
-  const bool better = finest_.mean_energy(after) <= finest_.mean_energy(before);
-  const Shape& best = better ? after : before;
-  result_.after = best.terms();
-  result_.facets_after = best.mesh.triangles.size();
-  result_.mesh = best.mesh;
+  Measured after = measure(current_);
+  if (after.energy <= before.energy) {
+    best = std::move(current_);
+  } else {
+    after = before;
+  }
+  result_.after = after.terms;
+  result_.facets_after = best.triangles.size();
+  result_.mesh = std::move(best);
   return std::move(result_);
+}
+
+RefinementRun::Measured RefinementRun::measure(const TriangleMesh& mesh) const {
+  const Shape shape = finest_.evaluate(mesh, false);
+  return {shape.terms(), finest_.mean_energy(shape)};
 }
 
 bool RefinementRun::has_segmentation() const {
@@ -65,19 +77,30 @@ bool RefinementRun::has_segmentation() const {
 }
 
 bool RefinementRun::refine_level(int level) {
-  LevelProblem problem(shrink_views(views_, level), config_);
+  if (level == 0) {
+    return iterate(0, &finest_);
+  }
+  LevelProblem problem(shrink_views(views_, level), labels_, config_);
   problem.use_pairs(finest_.pairs());
+  return iterate(level, &problem);
+}
+
+void RefinementRun::split_facets(const LevelProblem& problem) {
   const std::size_t facets = current_.triangles.size();
   current_ = subdivide(
       current_, best_view_pixels(current_, problem.render(current_)), config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
   }
-  Shape shape = problem.evaluate(std::move(current_), true);
-  problem.start(shape);
+}
+
+bool RefinementRun::iterate(int level, LevelProblem* problem) {
+  split_facets(*problem);
+  Shape shape = problem->evaluate(std::move(current_), true);
+  problem->start(shape);
   bool go_on = true;
   for (int k = 0; k < config_.iterations && go_on; ++k) {
-    std::optional<Shape> improved = problem.improve(shape);
+    std::optional<Shape> improved = problem->improve(shape);
     if (!improved) {
       break;
     }

@@ -27,8 +27,18 @@ class RefinementRun {
   void relabel(TriangleMesh* mesh);
   bool has_segmentation() const;
 
-  /// Iterates at one level; false if the run was cancelled.
+  /// What is compared to tell the better of two shapes, on the finest level's images.
+  struct Measured {
+    EnergyTerms terms;
+    double energy = 0.0;
+  };
+  Measured measure(const TriangleMesh& mesh) const;
+
+  /// Refine `current_` at one level; false if the run was cancelled.
   bool refine_level(int level);
+  bool iterate(int level, LevelProblem* problem);
+  /// Splits what is too large at this level, and labels the pieces.
+  void split_facets(const LevelProblem& problem);
   bool report(int level, int iteration, const EnergyTerms& energy);
 
   const TriangleMesh& start_;

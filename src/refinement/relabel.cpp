@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "facet_mapping/labeling/facet_labeling.h"
 #include "refinement_run.h"
+
+#include "facet_mapping/labeling/facet_labeling.h"
 
 namespace facet_mapping {
 
@@ -14,9 +15,7 @@ void RefinementRun::relabel(TriangleMesh* mesh) {
   if (!mesh->labels.empty()) {
     result_.relabelled += labeling.changed;
   }
-  mesh->labels = labeling.labels;
-  mesh->confidence = labeling.confidence;
-  mesh->views = labeling.views;
+  apply_labeling(labeling, mesh);
 }
 
 }  // namespace facet_mapping

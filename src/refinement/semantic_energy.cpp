@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/refinement/semantic_energy.h"
 
-#include <tbb/parallel_for.h>
-
 #include "border_forces.h"
 #include "ordered_reduce.h"
+#include <tbb/parallel_for.h>
 
 namespace facet_mapping {
 

@@ -59,13 +59,8 @@ SemanticGate::SemanticGate(const cv::Mat& rendered, int window_px) {
     }
     size_ += static_cast<std::size_t>(count);
     classes.push_back({label, {}});
-    cv::boxFilter(zone,
-                  classes.back().weight,
-                  CV_32F,
-                  window,
-                  cv::Point(-1, -1),
-                  true,
-                  cv::BORDER_CONSTANT);
+    cv::boxFilter(
+        zone, classes.back().weight, CV_32F, window, cv::Point(-1, -1), true, cv::BORDER_CONSTANT);
   }
   offsets_.push_back(0);
   for (int y = 0; y < rendered.rows; ++y) {

@@ -2,31 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/refinement/spline_image.h"
 
-#include <array>
 #include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
 
 namespace facet_mapping {
-namespace {
 
-/// Weights of the four pixels around a position at fraction `t` and their derivatives.
-struct Basis {
-  std::array<float, 4> weight;
-  std::array<float, 4> slope;
-
-  explicit Basis(float t) {
-    const float s = 1.0F - t;
-    const float t2 = t * t;
-    weight = {s * s * s / 6.0F,
-              (4.0F - 6.0F * t2 + 3.0F * t2 * t) / 6.0F,
-              (1.0F + 3.0F * t + 3.0F * t2 - 3.0F * t2 * t) / 6.0F,
-              t2 * t / 6.0F};
-    slope = {-0.5F * s * s, 1.5F * t2 - 2.0F * t, 0.5F + t - 1.5F * t2, 0.5F * t2};
-  }
-};
-
-}  // namespace
+CubicBasis::CubicBasis(float t) {
+  const float s = 1.0F - t;
+  const float t2 = t * t;
+  weight = {s * s * s / 6.0F,
+            (4.0F - 6.0F * t2 + 3.0F * t2 * t) / 6.0F,
+            (1.0F + 3.0F * t + 3.0F * t2 - 3.0F * t2 * t) / 6.0F,
+            t2 * t / 6.0F};
+  slope = {-0.5F * s * s, 1.5F * t2 - 2.0F * t, 0.5F + t - 1.5F * t2, 0.5F * t2};
+}
 
 SplineImage::SplineImage(const cv::Mat& image) {
   if (image.type() != CV_8UC1 && image.type() != CV_32FC1) {
@@ -38,8 +28,8 @@ SplineImage::SplineImage(const cv::Mat& image) {
 ImageSample SplineImage::sample(double x, double y) const {
   const int column = static_cast<int>(x);
   const int row = static_cast<int>(y);
-  const Basis bx(static_cast<float>(x - column));
-  const Basis by(static_cast<float>(y - row));
+  const CubicBasis bx(static_cast<float>(x - column));
+  const CubicBasis by(static_cast<float>(y - row));
   ImageSample sample;
   for (int k = 0; k < 4; ++k) {
     const float* p = pixels_.ptr<float>(row - 1 + k) + column - 1;

@@ -40,7 +40,8 @@ void limit_step(const TriangleMesh& mesh,
     for (const std::uint32_t* l = neighbours.begin(k); l != neighbours.end(k); ++l) {
       edges += (mesh.vertices[*l] - mesh.vertices[k]).norm();
     }
-    const double limit = edges > 0.0 ? fraction * edges / static_cast<double>(neighbours.size(k)) : 0.0;
+    const double limit =
+        edges > 0.0 ? fraction * edges / static_cast<double>(neighbours.size(k)) : 0.0;
     const double length = (*step)[k].norm();
     if (length > limit) {
       (*step)[k] *= limit / length;

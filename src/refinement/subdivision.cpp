@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <Eigen/Geometry>
-
 #include "edge_table.h"
+#include <Eigen/Geometry>
 
 namespace facet_mapping {
 namespace {
@@ -95,8 +94,8 @@ double squared_distance(const std::vector<Eigen::Vector3d>& x, std::uint32_t a, 
   return (x[a] - x[b]).squaredNorm();
 }
 
-/// Facet (a, b, c) with the middles of b-c and c-a: a corner and a quadrilateral, which is cut along
-/// its shorter diagonal.
+/// Facet (a, b, c) with the middles of b-c and c-a: a corner and a quadrilateral, which is cut
+/// along its shorter diagonal.
 void split_two(const std::vector<Eigen::Vector3d>& vertices,
                const Triangle& t,
                std::uint32_t bc,

@@ -140,8 +140,8 @@ std::vector<std::vector<int>> select_view_pairs(const TriangleMesh& mesh,
                                                 const ViewPairConfig& config) {
   std::vector<std::vector<int>> partners(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-    partners[i] = choose_partners(
-        score_partners(mesh, views, surfaces, i, config.best_parallax_deg), config);
+    partners[i] =
+        choose_partners(score_partners(mesh, views, surfaces, i, config.best_parallax_deg), config);
   });
   return partners;
 }

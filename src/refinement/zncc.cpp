@@ -77,10 +77,9 @@ void spread(const TermImages& terms,
             const cv::Mat& warped,
             int window_px,
             ZnccResult* result) {
-  result->derivative = box(terms.alpha_mean_i, window_px, false) -
-                       image.mul(box(terms.alpha, window_px, false)) +
-                       warped.mul(box(terms.beta, window_px, false)) -
-                       box(terms.beta_mean_j, window_px, false);
+  result->derivative =
+      box(terms.alpha_mean_i, window_px, false) - image.mul(box(terms.alpha, window_px, false)) +
+      warped.mul(box(terms.beta, window_px, false)) - box(terms.beta_mean_j, window_px, false);
   result->curvature = box(terms.curvature, window_px, false);
 }
 

@@ -37,16 +37,18 @@ void add_config_options(CLI::App* app, Options* options) {
   RefinementConfig& config = options->config;
   const std::map<std::string, SemanticMode> modes = {{"off", SemanticMode::kOff},
                                                      {"normal", SemanticMode::kNormal},
-                                                     {"full", SemanticMode::kFull}};
+                                                     {"full", SemanticMode::kFull},
+                                                     {"pairwise", SemanticMode::kPairwise}};
   app->add_option("--levels", config.levels, "image pyramid levels")->capture_default_str();
-  app->add_option("--iterations", config.iterations, "iterations per level")
-      ->capture_default_str();
+  app->add_option("--iterations", config.iterations, "iterations per level")->capture_default_str();
   app->add_flag("--no-photometric", options->no_photometric, "leave the photometric flow out");
-  app->add_option("--semantic", config.semantic, "off, normal or full")
+  app->add_option("--semantic", config.semantic, "off, normal, full or pairwise")
       ->transform(CLI::CheckedTransformer(modes));
   app->add_option("--semantic-weight", config.semantic_weight)->capture_default_str();
   app->add_option("--smoothing", config.smoothing, "umbrella weight")->capture_default_str();
   app->add_option("--thin-plate", config.thin_plate)->capture_default_str();
+  app->add_option("--planar-smoothing", config.planar_smoothing, "factor on planar classes")
+      ->capture_default_str();
   app->add_option("--ncc-window", config.ncc_window_px, "pixels, odd")->capture_default_str();
   app->add_option("--semantic-window", config.semantic_window_px, "pixels, odd")
       ->capture_default_str();

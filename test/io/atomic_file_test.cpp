@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "io/temp_folder.h"
+#include "support/small_disk.h"
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -15,26 +16,6 @@ using testing::error_of;
 using testing::read_text;
 using testing::TempFolder;
 using testing::write_text;
-
-// While it lives no file can grow beyond `bytes`: what a full disk does to a writer.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_limit_);
-    const rlimit limit{bytes, old_limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &old_limit_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit old_limit_{};
-  void (*old_handler_)(int);
-};
 
 TEST(AtomicFile, AppearsOnCommitOnly) {
   const TempFolder folder;
@@ -78,7 +59,7 @@ TEST(AtomicFile, FullDiskIsAnErrorAndTheOldFileStays) {
   write_text(path, "old");
   std::string error;
   {
-    const SmallDisk disk(4096);
+    const testing::SmallDisk disk(4096);
     error = error_of([&] {
       AtomicFile file(path);
       file.write(std::string(10000, 'x'));

@@ -3,8 +3,8 @@
 // Whatever is wrong with a folder is named, all of it at once.
 #include <functional>
 
-#include "io/small_datasets.h"
 #include "io/temp_folder.h"
+#include "support/small_datasets.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/io/dataset.h"

@@ -3,8 +3,8 @@
 // The layouts as they should be.
 #include "facet_mapping/io/dataset.h"
 
-#include "io/small_datasets.h"
 #include "io/temp_folder.h"
+#include "support/small_datasets.h"
 #include <gtest/gtest.h>
 
 namespace facet_mapping {

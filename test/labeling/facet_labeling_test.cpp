@@ -3,6 +3,8 @@
 #include "facet_mapping/labeling/facet_labeling.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -217,6 +219,23 @@ TEST(FacetLabeling, UnseenPartsKeepTheirOwnLabelsButSingleOddOnesAreSmoothed) {
     EXPECT_EQ(result.labels[f], 3);
   }
   EXPECT_EQ(result.changed, half + 2);
+}
+
+TEST(FacetLabeling, GapsTakeNoPartAndStayGaps) {
+  test::LabeledScene scene = test::make_box_scene(3);
+  const std::size_t per_face = scene.mesh.triangles.size() / 6;
+  scene.mesh.views.assign(6 * per_face, 1);
+  // The second face closes space that nobody saw; the facets after it keep their own numbers.
+  std::fill_n(
+      scene.mesh.views.begin() + static_cast<std::ptrdiff_t>(per_face), per_face, std::uint16_t{0});
+  const LabelingResult result = test::label(scene);
+  TriangleMesh labelled = scene.mesh;
+  apply_labeling(result, &labelled);
+  for (std::size_t f = 0; f < result.labels.size(); ++f) {
+    const bool gap = f / per_face == 1;
+    EXPECT_EQ(result.labels[f], gap ? kUnlabelled : scene.truth[f]);
+    EXPECT_EQ(is_gap(labelled, f), gap);
+  }
 }
 
 TEST(FacetLabeling, ImagesOverruleTheMeshesOwnLabels) {

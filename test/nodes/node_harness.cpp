@@ -4,6 +4,7 @@
 
 #include "corridor.h"
 #include <cv_bridge/cv_bridge.h>
+#include <ros/callback_queue.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "facet_mapping/ros/cloud_conversions.h"
@@ -95,12 +96,13 @@ CorridorCar::CorridorCar() {
 }
 
 bool CorridorCar::is_connected() const {
-  for (const ros::Publisher* p : {&left_, &right_, &left_info_, &right_info_, &segmentation_}) {
-    if (p->getNumSubscribers() == 0) {
+  // The left camera and its segmentation go to stereo_points and to the refiner.
+  for (const ros::Publisher* p : {&left_, &left_info_, &segmentation_}) {
+    if (p->getNumSubscribers() < 2) {
       return false;
     }
   }
-  return true;
+  return right_.getNumSubscribers() > 0 && right_info_.getNumSubscribers() > 0;
 }
 
 CorridorCar::Frame CorridorCar::look(double x_m, const ros::Time& stamp) {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "support/meshes.h"
+#include "textured_scene.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/refinement/photometric_energy.h"
-#include "support/meshes.h"
-#include "textured_scene.h"
 
 namespace facet_mapping {
 namespace {

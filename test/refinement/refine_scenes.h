@@ -8,9 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "facet_mapping/refinement/refiner.h"
 #include "support/meshes.h"
 #include "textured_scene.h"
+
+#include "facet_mapping/refinement/refiner.h"
 
 namespace facet_mapping::test {
 
@@ -43,9 +44,8 @@ inline Scene wavy_plane() {
     return 0.05 * std::sin(4.0 * x + 0.3) * std::cos(3.0 * y - 0.2) + noise(random);
   });
   const PinholeCamera camera = make_camera(240, 180, 300.0);
-  scene.views = cast_views(arc_of_views(camera, Eigen::Vector3d::Zero(), 3.0, kArcStepDeg, 3),
-                           plane_surface(),
-                           0.15);
+  scene.views = cast_views(
+      arc_of_views(camera, Eigen::Vector3d::Zero(), 3.0, kArcStepDeg, 3), plane_surface(), 0.15);
   scene.parallax_px_per_m = 300.0 / 3.0 * std::sin(kArcStepDeg * M_PI / 180.0);
   return scene;
 }
@@ -60,10 +60,9 @@ inline Scene bumpy_ball(int subdivisions) {
     v *= 1.0 + 0.025 * std::sin(4.0 * v.x() + 0.3) * std::cos(3.0 * v.y() - 0.2);
   }
   const PinholeCamera camera = make_camera(240, 180, 220.0);
-  scene.views =
-      cast_views(arc_of_views(camera, {0.0, 0.0, kBallRadius}, 2.5, kArcStepDeg, 3),
-                 sphere_surface(kBallRadius),
-                 0.15);
+  scene.views = cast_views(arc_of_views(camera, {0.0, 0.0, kBallRadius}, 2.5, kArcStepDeg, 3),
+                           sphere_surface(kBallRadius),
+                           0.15);
   scene.parallax_px_per_m = 220.0 / 2.5 * std::sin(kArcStepDeg * M_PI / 180.0);
   return scene;
 }

@@ -4,10 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "refine_scenes.h"
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
-
-#include "refine_scenes.h"
 
 namespace facet_mapping {
 namespace {

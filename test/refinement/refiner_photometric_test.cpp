@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine_scenes.h"
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
 #include "facet_mapping/geometry/manifold.h"
-#include "refine_scenes.h"
 
 namespace facet_mapping {
 namespace {
@@ -140,26 +140,35 @@ TEST(RefinePhotometric, SmoothingAloneDoesNotShrinkTheBall) {
   EXPECT_NEAR(mean / count / test::kBallRadius, 1.0, 0.002);
 }
 
-TEST(RefinePhotometric, FollowsTheUnitOfLength) {
-  const Scene scene = test::bumpy_ball(4);
-  Scene large = scene;
-  constexpr double kScale = 1000.0;
-  for (Eigen::Vector3d& v : large.mesh.vertices) {
-    v *= kScale;
+/// The largest difference, in pixels of parallax, that another unit of length makes.
+double unit_error_px(const Scene& scene, double scale, const RefinementConfig& config) {
+  Scene scaled = scene;
+  for (Eigen::Vector3d& v : scaled.mesh.vertices) {
+    v *= scale;
   }
-  for (LabeledView& view : large.views) {
-    view.view.world_from_cam.translation() *= kScale;
+  for (LabeledView& view : scaled.views) {
+    view.view.world_from_cam.translation() *= scale;
   }
-  const RefinementConfig config = test::photometric_config();
   const RefinementResult a = refine(scene.mesh, scene.views, LabelSet(), config);
-  const RefinementResult b = refine(large.mesh, large.views, LabelSet(), config);
-  ASSERT_EQ(a.mesh.triangles, b.mesh.triangles);
+  const RefinementResult b = refine(scaled.mesh, scaled.views, LabelSet(), config);
+  EXPECT_TRUE(a.mesh.triangles == b.mesh.triangles);
+  EXPECT_NEAR(a.after.photometric, b.after.photometric, 1e-4);
   double worst = 0.0;
   for (std::size_t k = 0; k < a.mesh.vertices.size(); ++k) {
-    worst = std::max(worst, (b.mesh.vertices[k] / kScale - a.mesh.vertices[k]).norm());
+    worst = std::max(worst, (b.mesh.vertices[k] / scale - a.mesh.vertices[k]).norm());
   }
-  EXPECT_LT(worst * scene.parallax_px_per_m, 0.05);
-  EXPECT_NEAR(a.after.photometric, b.after.photometric, 1e-4);
+  return worst * scene.parallax_px_per_m;
+}
+
+TEST(RefinePhotometric, MillimetresGiveTheSameResult) {
+  RefinementConfig config = test::photometric_config();
+  config.subdivide_px = 1e9;  // a facet exactly at the limit may go either way
+  EXPECT_LT(unit_error_px(test::bumpy_ball(4), 1000.0, config), 0.05);
+}
+
+/// A power of two changes no rounding, so that subdivision too must be the same.
+TEST(RefinePhotometric, SubdivisionFollowsTheUnitOfLength) {
+  EXPECT_LT(unit_error_px(test::bumpy_ball(3), 1024.0, test::photometric_config()), 1e-6);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ TEST(SemanticGate, EnergyIsThatOfTheDefinition) {
     rendered.rowRange(0, 4).setTo(cv::Scalar(kUnlabelled));
     for (const int window : {3, 7}) {
       const SemanticGate gate(rendered, window);
-      EXPECT_NEAR(gate.energy(rendered, seen), energy_by_definition(rendered, seen, window, 3), 1e-3);
+      EXPECT_NEAR(
+          gate.energy(rendered, seen), energy_by_definition(rendered, seen, window, 3), 1e-3);
     }
   }
 }

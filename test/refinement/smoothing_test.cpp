@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "support/meshes.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/refinement/step.h"
-#include "support/meshes.h"
 
 namespace facet_mapping {
 namespace {
@@ -53,7 +53,6 @@ TEST(Smoothing, DoesNotShrinkASphere) {
     for (const bool thin_plate : {false, true}) {
       config.thin_plate = thin_plate ? 0.2 : 0.0;
       const double radius = mean_radius(smooth(sphere, config, 20));
-      std::printf("%d facets, thin plate %d: radius %.5f\n", int(sphere.triangles.size()), thin_plate, radius);
       EXPECT_NEAR(radius, 1.0, 0.005);
     }
   }

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "support/meshes.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
-
-#include "support/meshes.h"
 
 namespace facet_mapping {
 namespace {
@@ -45,8 +44,7 @@ TEST(Step, UnmovableVerticesStay) {
     }
   }
   const SmoothingTerm term(mesh, umbrella, weights, SmoothingConfig{});
-  const VectorField step =
-      solve_step(mesh, VertexField(mesh.vertices.size()), term, movable);
+  const VectorField step = solve_step(mesh, VertexField(mesh.vertices.size()), term, movable);
   double moved = 0.0;
   for (std::size_t k = 0; k < step.size(); ++k) {
     if (movable[k] == 0) {

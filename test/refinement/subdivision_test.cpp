@@ -6,11 +6,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "support/meshes.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "facet_mapping/geometry/manifold.h"
-#include "support/meshes.h"
 
 namespace facet_mapping {
 namespace {
@@ -86,9 +86,12 @@ TEST(Subdivision, CarriesTheAttributes) {
   validate(finer);
   ASSERT_EQ(finer.labels.size(), finer.triangles.size());
   const std::vector<Eigen::Vector3d> normals = facet_normals(finer);
-  const std::vector<Eigen::Vector3d> axes = {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX(),
-                                             -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitY(),
-                                             -Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ()};
+  const std::vector<Eigen::Vector3d> axes = {-Eigen::Vector3d::UnitX(),
+                                             Eigen::Vector3d::UnitX(),
+                                             -Eigen::Vector3d::UnitY(),
+                                             Eigen::Vector3d::UnitY(),
+                                             -Eigen::Vector3d::UnitZ(),
+                                             Eigen::Vector3d::UnitZ()};
   for (std::size_t f = 0; f < normals.size(); ++f) {
     EXPECT_NEAR((normals[f] - axes[finer.labels[f]]).norm(), 0.0, 1e-9);
     EXPECT_EQ(finer.views[f], finer.labels[f]);
@@ -109,7 +112,8 @@ TEST(Subdivision, WorksOnOpenMeshes) {
   const TriangleMesh finer =
       subdivide(plane, std::vector<double>(plane.triangles.size(), 33.0), 10.0);
   const ManifoldReport report = check_manifold(finer);
-  EXPECT_EQ(report.non_manifold_edges + report.misoriented_edges + report.non_manifold_vertices, 0U);
+  EXPECT_EQ(report.non_manifold_edges + report.misoriented_edges + report.non_manifold_vertices,
+            0U);
   EXPECT_NEAR(total_area(finer), 9.0, 1e-9);
 }
 

@@ -11,13 +11,13 @@
 #include <random>
 #include <vector>
 
+#include "support/meshes.h"
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "facet_mapping/geometry/camera.h"
 #include "facet_mapping/geometry/label.h"
 #include "facet_mapping/labels/labeled_view.h"
-#include "support/meshes.h"
 
 namespace facet_mapping::test {
 

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "support/meshes.h"
 #include "textured_scene.h"
+#include <gtest/gtest.h>
 
 namespace facet_mapping {
 namespace {
@@ -33,8 +32,7 @@ TEST(ViewPairs, ParallaxIsBestAtTenDegrees) {
 TEST(ViewPairs, PrefersTheBestParallaxOnAnArc) {
   const TriangleMesh plane = test::make_grid_plane(20, 20, 0.1);
   const PinholeCamera camera = test::make_camera(160, 120, 200.0);
-  const std::vector<View> views =
-      test::arc_of_views(camera, Eigen::Vector3d::Zero(), 3.0, 2.0, 15);
+  const std::vector<View> views = test::arc_of_views(camera, Eigen::Vector3d::Zero(), 3.0, 2.0, 15);
   const std::vector<std::vector<int>> partners = pairs_of(plane, views, 2);
   for (int i = 0; i < 15; ++i) {
     ASSERT_EQ(partners[i].size(), 2U);

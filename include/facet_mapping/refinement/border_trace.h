@@ -31,8 +31,8 @@ class BorderTracer {
                const std::vector<FacetNeighbours>& neighbours,
                const View& view);
 
-  /// Walks from pixel `from`, which shows `facet`, straight towards pixel `to` and returns where the
-  /// class of `facet` ends: at an edge to a facet of another class, at an edge beyond which the
+  /// Walks from pixel `from`, which shows `facet`, straight towards pixel `to` and returns where
+  /// the class of `facet` ends: at an edge to a facet of another class, at an edge beyond which the
   /// surface turns away (an occluding contour), or at the border of an open mesh. Nothing if the
   /// class goes on up to `to`: then something nearer hides it.
   std::optional<BorderPoint> trace(int facet,

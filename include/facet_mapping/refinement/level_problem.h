@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/labels/labeled_view.h"
+#include "facet_mapping/refinement/pairwise_semantic.h"
 #include "facet_mapping/refinement/photometric_energy.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/refinement/semantic_energy.h"
@@ -23,14 +25,17 @@ struct Shape {
   PhotometricEnergy photometric;
   SemanticEnergy semantic;
   std::vector<SemanticGate> gates;
+  PairwiseSemanticEnergy pairwise;  ///< in that mode only
 
   EnergyTerms terms() const { return {photometric.mean(), semantic.mean()}; }
 };
 
 class LevelProblem {
  public:
-  /// `views` at this level's size; `config` must outlive the problem.
-  LevelProblem(const std::vector<LabeledView>& views, const RefinementConfig& config);
+  /// `views` at this level's size; `labels` and `config` must outlive the problem.
+  LevelProblem(const std::vector<LabeledView>& views,
+               const LabelSet& labels,
+               const RefinementConfig& config);
 
   const std::vector<View>& views() const { return poses_; }
 
@@ -63,9 +68,13 @@ class LevelProblem {
                      std::size_t pixels) const;
   VectorField find_step(const Shape& shape, const SmoothingTerm& smoothing) const;
   double semantic_scale() const;
+  void evaluate_semantic(Shape* shape, bool with_gradient) const;
+  void smooth_planes(const TriangleMesh& mesh);
 
+  const LabelSet& labels_;
   const RefinementConfig& config_;
   std::vector<View> poses_;
+  std::vector<cv::Mat> sky_;  ///< CV_8UC1 per view, 255 where the segmentation says sky, or empty
   std::vector<PhotometricView> photometric_views_;
   std::vector<SemanticView> semantic_views_;
   std::vector<std::vector<int>> partners_;

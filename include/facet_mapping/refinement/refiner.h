@@ -17,9 +17,10 @@
 namespace facet_mapping {
 
 enum class SemanticMode {
-  kOff,     ///< photometric only (Vu et al. 2012)
-  kNormal,  ///< only the part of the semantic gradient along the vertex normal (the paper)
-  kFull,    ///< the whole gradient: class borders may also slide over the surface
+  kOff,       ///< photometric only (Vu et al. 2012)
+  kNormal,    ///< only the part of the semantic gradient along the vertex normal (the paper)
+  kFull,      ///< the whole gradient: class borders may also slide over the surface
+  kPairwise,  ///< masks of one view against those of another (Blaha et al. 2017), for comparison
 };
 
 struct RefinementConfig {
@@ -30,6 +31,7 @@ struct RefinementConfig {
   double semantic_weight = 1.0;     ///< weight of the semantic energy beside the photometric one
   double smoothing = 0.2;           ///< weight of the umbrella operator, 0..1
   double thin_plate = 0.2;          ///< weight of the second-order smoothing, 0..1
+  double planar_smoothing = 3.0;    ///< factor of both on classes marked planar, at least 1
   int ncc_window_px = 5;            ///< side of the correlation window, odd
   int semantic_window_px = 7;       ///< side of the semantic window W, odd
   double min_incidence_cos = 0.15;  ///< pixels that see the surface at a flatter angle do not count
@@ -66,7 +68,11 @@ struct RefinementResult {
   bool cancelled = false;
 };
 
-/// Moves the vertices of `mesh` so that images and segmentations agree with it.
+/// Moves the vertices of `mesh` so that images and segmentations agree with it. A mesh without
+/// labels is labelled first if there are segmentations. Pixels that a segmentation calls sky (by
+/// the flag in `labels`) tell photometry nothing; facets of planar classes are smoothed more. What
+/// no view sees stays where it is. The result's energies are never above the start's; if no better
+/// shape is found, the start is returned. With zero iterations nothing but labels changes.
 /// Throws std::invalid_argument if fewer than two views are given, a view has no image of the
 /// camera's size, the mesh is invalid or the configuration is out of range.
 RefinementResult refine(const TriangleMesh& mesh,

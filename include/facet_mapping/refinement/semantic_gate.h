@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the semantic energy looks: near the borders between rendered classes (chi of Romanoni et al.
-// 2017, Eq. 9).
+// Where the semantic energy looks: near the borders between rendered classes (chi of Romanoni et
+// al. 2017, Eq. 9).
 #pragma once
 
 #include <cstdint>

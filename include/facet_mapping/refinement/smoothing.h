@@ -26,9 +26,9 @@ class UmbrellaOperator {
   /// U^T y.
   VectorField apply_transposed(const VectorField& y) const;
 
-  /// The part of the umbrella vectors that the surroundings share: their component along the normal,
-  /// averaged over about three rings, times the normal. On a sphere or a pole all vertices would
-  /// move inwards by the same amount under the umbrella operator, which tells of the shape's
+  /// The part of the umbrella vectors that the surroundings share: their component along the
+  /// normal, averaged over about three rings, times the normal. On a sphere or a pole all vertices
+  /// would move inwards by the same amount under the umbrella operator, which tells of the shape's
   /// curvature and not of noise.
   VectorField shared_curvature(const TriangleMesh& mesh) const;
 

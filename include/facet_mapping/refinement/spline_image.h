@@ -3,7 +3,8 @@
 // A smooth continuous image: what makes the photometric energy differentiable.
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
+
 #include <opencv2/core.hpp>
 
 namespace facet_mapping {
@@ -12,6 +13,15 @@ struct ImageSample {
   float value = 0.0F;
   float dx = 0.0F;  ///< derivative along the columns, per pixel
   float dy = 0.0F;  ///< derivative along the rows, per pixel
+};
+
+/// The cubic B-spline's weights of the four pixels around a position at fraction `t` (0..1) between
+/// the second and the third, and their derivatives.
+struct CubicBasis {
+  std::array<float, 4> weight;
+  std::array<float, 4> slope;
+
+  explicit CubicBasis(float t);
 };
 
 /// The uniform cubic B-spline whose coefficients are the pixels. It is twice differentiable and

@@ -13,9 +13,9 @@
 namespace facet_mapping {
 
 struct ViewPairConfig {
-  int pairs_per_view = 3;            ///< partners kept for each view, at most
-  double best_parallax_deg = 10.0;   ///< angle between the viewing rays that says most
-  double min_shared_fraction = 0.01; ///< score below which a partner says nothing, 0..1
+  int pairs_per_view = 3;             ///< partners kept for each view, at most
+  double best_parallax_deg = 10.0;    ///< angle between the viewing rays that says most
+  double min_shared_fraction = 0.01;  ///< score below which a partner says nothing, 0..1
 };
 
 /// How much a surface point seen under this parallax tells: 1 at the best angle, falling as the

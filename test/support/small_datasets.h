@@ -1,21 +1,27 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/small_datasets.h"
+// Tiny dataset folders of every layout, three frames of 8x6 pixels.
+#pragma once
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "io/temp_folder.h"
 #include <opencv2/imgcodecs.hpp>
 
 namespace facet_mapping::testing {
-namespace {
 
-void write_image(const std::string& path, const cv::Mat& image) {
+constexpr int kFrames = 3;
+constexpr int kWidth = 8;
+constexpr int kHeight = 6;
+
+inline void write_image(const std::string& path, const cv::Mat& image) {
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   cv::imwrite(path, image);
 }
 
-cv::Mat picture(int frame) {
+inline cv::Mat picture(int frame) {
   cv::Mat image(kHeight, kWidth, CV_8UC3);
   for (int row = 0; row < kHeight; ++row) {
     for (int column = 0; column < kWidth; ++column) {
@@ -27,12 +33,12 @@ cv::Mat picture(int frame) {
   return image;
 }
 
-void write_scan(const std::string& path) {
+inline void write_scan(const std::string& path) {
   const float points[] = {5.0F, 0.0F, 0.0F, 0.25F, 6.0F, 1.0F, -1.0F, 0.5F};
   write_text(path, std::string(reinterpret_cast<const char*>(points), sizeof(points)));
 }
 
-std::string pose_rows() {
+inline std::string pose_rows() {
   std::string rows;
   for (int k = 0; k < kFrames; ++k) {
     rows += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
@@ -40,14 +46,15 @@ std::string pose_rows() {
   return rows;
 }
 
-}  // namespace
-
-std::string padded(int number, int digits) {
+/// "000002" for (2, 6).
+inline std::string padded(int number, int digits) {
   const std::string text = std::to_string(number);
   return std::string(static_cast<std::size_t>(digits) - text.size(), '0') + text;
 }
 
-void make_plain(const std::string& folder) {
+/// left/ right/ labels/ gt_label/ gt_depth/ velodyne/ calib.txt poses.txt times.txt; K = 10 0 4 / 0
+/// 10 3, baseline 0.5 m, one metre forward per frame.
+inline void make_plain(const std::string& folder) {
   for (int k = 0; k < kFrames; ++k) {
     const std::string name = "/" + padded(k, 6);
     write_image(folder + "/left" + name + ".png", picture(k));
@@ -66,7 +73,9 @@ void make_plain(const std::string& folder) {
   write_text(folder + "/times.txt", "0\n0.1\n0.2\n");
 }
 
-void make_odometry(const std::string& folder) {
+/// The same as image_2/, image_3/ ..., camera 2 standing 0.06 m left of the pose camera (x =
+/// -0.06).
+inline void make_odometry(const std::string& folder) {
   for (int k = 0; k < kFrames; ++k) {
     const std::string name = "/" + padded(k, 6);
     write_image(folder + "/image_2" + name + ".png", picture(k));
@@ -81,7 +90,9 @@ void make_odometry(const std::string& folder) {
   write_text(folder + "/times.txt", "0\n0.1\n0.2\n");
 }
 
-std::string make_raw(const std::string& day) {
+/// A day folder with one drive; returns the drive's folder. The car drives 1 m east per frame, the
+/// camera looks along the car.
+inline std::string make_raw(const std::string& day) {
   const std::string drive = day + "/2011_09_26_drive_0001_sync";
   std::string times;
   for (int k = 0; k < kFrames; ++k) {
@@ -110,7 +121,8 @@ std::string make_raw(const std::string& day) {
   return drive;
 }
 
-void make_strecha(const std::string& folder) {
+/// cameras.json with two views at (0, 0, 0) and (1, 2, 3), images as PNG.
+inline void make_strecha(const std::string& folder) {
   write_image(folder + "/images/0000.png", picture(0));
   write_image(folder + "/images/0001.png", picture(1));
   write_image(folder + "/depth_gt/0001.png", cv::Mat(kHeight, kWidth, CV_16U, cv::Scalar(500)));
