@@ -139,16 +139,6 @@ LabelingResult label_observed(const TriangleMesh& whole,
 
 }  // namespace
 
-std::vector<Label> labels_never_on_facets(const LabelSet& labels) {
-  std::vector<Label> never;
-  for (const ClassInfo& info : labels.classes()) {
-    if (info.sky) {
-      never.push_back(info.id);
-    }
-  }
-  return never;
-}
-
 LabelingResult label_facets(const TriangleMesh& mesh,
                             const std::vector<LabeledView>& views,
                             const std::vector<FacetImage>& renderings,

@@ -74,6 +74,9 @@ void add_details(ParameterTable* table, RefinementConfig* c) {
 
 void add_labeling(ParameterTable* table, LabelingConfig* c) {
   table->add("labeling/beta", &c->beta, "", "floor of the data probability", {1e-6, 1.0});
+  table->add("labeling/pixel_votes",
+             &c->pixel_votes,
+             "evidence from all pixels that show a facet; false: from its vertices alone");
   table->add("labeling/normal_weight",
              &c->normal_weight,
              "",

@@ -148,18 +148,6 @@ TEST(FacetLabeling, VoidDoesNotSeeAndExcludedLabelsSupportNothing) {
   EXPECT_GT(std::count(result.confidence.begin(), result.confidence.end(), 0.0F), per_face);
 }
 
-TEST(FacetLabeling, SkyIsNeverOnFacets) {
-  ClassInfo road;
-  road.id = 4;
-  road.name = "road";
-  ClassInfo sky;
-  sky.id = 9;
-  sky.name = "sky";
-  sky.color = {1, 2, 3};
-  sky.sky = true;
-  EXPECT_EQ(labels_never_on_facets(LabelSet({road, sky})), std::vector<Label>{9});
-}
-
 TEST(FacetLabeling, AFewOddPixelsBeforeTheSkyDoNotLabelAFacet) {
   test::LabeledScene scene;
   scene.mesh = test::make_grid_plane(6, 6, 1.0);

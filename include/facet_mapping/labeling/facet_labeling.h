@@ -22,7 +22,6 @@
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
-#include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/labels/labeled_view.h"
 #include "facet_mapping/render/facet_renderer.h"
 
@@ -32,8 +31,7 @@ struct LabelingConfig {
   double beta = 0.1;        ///< floor of the data probability
   bool pixel_votes = true;  ///< evidence from all pixels of a facet; off: its vertices (the paper)
   double normal_weight = 1.5;  ///< exponent lambda_n of the orientation prior
-  double normal_floor =
-      0.2;  ///< floor of the orientation probability: no prior outvotes all images
+  double normal_floor = 0.2;   ///< of the orientation probability: no prior outvotes all images
   double min_normal_sigma_deg = 10.0;  ///< least angular deviation that a class is credited with
   int min_normal_facets = 20;          ///< classes with fewer facets have no orientation prior
   double smooth_equal = 0.8;           ///< pairwise probability of equal labels
@@ -42,12 +40,8 @@ struct LabelingConfig {
       0.7;  ///< cost (nats) of dropping the mesh's own label where no image sees
   double depth_tolerance = 0.02;  ///< relative depth slack of the visibility test
   int max_sweeps = 10;            ///< alpha-expansion sweeps over all classes
-  std::vector<Label> excluded;    ///< never given to a facet, see labels_never_on_facets
+  std::vector<Label> excluded;    ///< never given to a facet, see LabelSet::sky_ids
 };
-
-/// What LabelingConfig::excluded should hold for a class list: the classes that are no surface
-/// (sky).
-std::vector<Label> labels_never_on_facets(const LabelSet& labels);
 
 struct LabelingResult {
   std::vector<Label> labels;  ///< per facet; kUnlabelled where no evidence reaches
