@@ -79,8 +79,11 @@ std::optional<BorderPoint> BorderTracer::trace(int facet,
       return std::nullopt;
     }
     const int next = neighbours_[facet][exit.side];
-    const Projected beyond = next >= 0 ? project(next) : Projected{};
-    if (next < 0 || mesh_.labels[next] != label || beyond.orientation != here.orientation) {
+    if (next < 0) {
+      return std::nullopt;
+    }
+    const Projected beyond = project(next);
+    if (mesh_.labels[next] != label || beyond.orientation != here.orientation) {
       const int a = exit.side;
       const int b = (exit.side + 1) % 3;
       const Eigen::Vector3d ray = start + exit.position * delta;

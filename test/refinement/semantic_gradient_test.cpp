@@ -4,6 +4,7 @@
 #include <random>
 
 #include "support/meshes.h"
+#include "textured_scene.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/refinement/semantic_energy.h"
@@ -91,7 +92,7 @@ void expect_agreement(const Problem& problem, double tolerance) {
     const double expected =
         (supersampled_energy(problem, ahead, gates) - supersampled_energy(problem, back, gates)) /
         (2.0 * kStep);
-    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.1 * scale));
+    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.5 * scale));
   }
 }
 
@@ -131,7 +132,7 @@ Problem ball_before_wall(int subdivisions) {
 Problem roof() {
   Problem problem;
   problem.mesh =
-      test::make_height_field(20, 16, 0.1, [](double x, double) { return -0.6 * std::abs(x); });
+      test::make_height_field(30, 30, 0.2, [](double x, double) { return -0.3 * std::abs(x); });
   for (const Triangle& t : problem.mesh.triangles) {
     const double x = problem.mesh.vertices[t[0]].x() + problem.mesh.vertices[t[1]].x() +
                      problem.mesh.vertices[t[2]].x();
@@ -139,12 +140,13 @@ Problem roof() {
   }
   const PinholeCamera camera = test::make_camera(160, 120, 160.0);
   for (const double x : {-0.9, 0.6}) {
-    const View view = test::look_at(camera, {x, 0.4, 2.5}, {0.05, 0.0, 0.0});
+    const View view = test::view_with_y_up(camera, {x, 0.4, 2.5}, {0.05, 0.0, 0.0});
     cv::Mat mask(camera.height, camera.width, CV_16UC1, cv::Scalar(4));
     for (int row = 0; row < mask.rows; ++row) {
       for (int column = 0; column < mask.cols; ++column) {
-        const double wave = 3.0 * std::sin(0.06 * row);
-        if (column < 79.0 + wave - 0.05 * (row - 60)) {
+        // Nowhere within a step of the ridge, where the energy has a kink.
+        const double wave = 2.0 * std::sin(0.06 * row);
+        if (column < 86.0 + wave - 0.02 * (row - 60)) {
           mask.at<Label>(row, column) = 3;
         }
       }

@@ -33,8 +33,9 @@ class BorderTracer {
 
   /// Walks from pixel `from`, which shows `facet`, straight towards pixel `to` and returns where
   /// the class of `facet` ends: at an edge to a facet of another class, at an edge beyond which the
-  /// surface turns away (an occluding contour), or at the border of an open mesh. Nothing if the
-  /// class goes on up to `to`: then something nearer hides it.
+  /// surface turns away (an occluding contour). Nothing if the class goes on up to `to` (then
+  /// something nearer hides it) or the mesh ends: the border of an open mesh is where the
+  /// reconstruction ends and not where an object does.
   std::optional<BorderPoint> trace(int facet,
                                    const Eigen::Vector2d& from,
                                    const Eigen::Vector2d& to) const;
