@@ -149,6 +149,7 @@ void SpaceCarver::Impl::insert_frame(const CarvingFrame& frame) {
         std::max(config_.min_point_spacing_m, kSpacingInSigmas * static_cast<double>(ray.sigma));
     const std::int64_t near = index_.find_near(ray.point, spacing);
     const VertexHandle vertex = near >= 0 ? vertices_[near] : insert_vertex(ray.point, false);
+    ++vertex->info().rays;
     if (ray.label != kUnlabelled) {
       vertex->info().labels.add(ray.label, kRayWeight);
     }

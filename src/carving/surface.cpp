@@ -3,6 +3,7 @@
 
 #include "carving/surface.h"
 
+#include <algorithm>
 #include <array>
 #include <unordered_map>
 
@@ -33,6 +34,16 @@ LabelEvidence facet_evidence(CellHandle matter, const Corners& corners) {
   return evidence;
 }
 
+/// Rays that end at the corners: at least one each.
+std::uint16_t count_rays(const Corners& corners) {
+  constexpr std::uint32_t kMost = 65535;
+  std::uint32_t rays = 0;
+  for (const VertexHandle corner : corners) {
+    rays += corner->info().rays;
+  }
+  return static_cast<std::uint16_t>(std::min(rays, kMost));
+}
+
 class SurfaceBuilder {
  public:
   explicit SurfaceBuilder(double max_edge_m) : max_edge_m_(max_edge_m) {}
@@ -47,9 +58,10 @@ class SurfaceBuilder {
       std::swap(corners[0], corners[1]);
     }
     surface_.mesh.triangles.push_back({index(corners[0]), index(corners[1]), index(corners[2])});
-    const LabelEvidence evidence = is_observed(corners, max_edge_m_)
-                                       ? facet_evidence(free->neighbor(facet), corners)
-                                       : LabelEvidence{};
+    const bool observed = is_observed(corners, max_edge_m_);
+    const LabelEvidence evidence =
+        observed ? facet_evidence(free->neighbor(facet), corners) : LabelEvidence{};
+    surface_.mesh.views.push_back(observed ? count_rays(corners) : 0);
     surface_.mesh.labels.push_back(evidence.best());
     surface_.mesh.confidence.push_back(evidence.margin());
   }

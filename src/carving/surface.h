@@ -12,7 +12,8 @@ namespace facet_mapping::carving {
 
 /// Facets run counter-clockwise seen from free space. A facet takes the class of the matter cell
 /// behind it or, where no ray labelled that cell, of the points at its corners. A facet that only
-/// closes the surface (an edge longer than `max_edge_m`, or an extra vertex) has no class.
+/// closes the surface (an edge longer than `max_edge_m`, or an extra vertex) is a gap: no class, no
+/// views.
 CarvedSurface make_surface(const Triangulation& triangulation, double max_edge_m);
 
 }  // namespace facet_mapping::carving

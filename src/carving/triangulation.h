@@ -28,6 +28,7 @@ struct CellInfo {
 struct VertexInfo {
   std::uint32_t id = 0;          ///< permanent
   std::uint32_t free_cells = 0;  ///< incident cells inside the manifold free space
+  std::uint32_t rays = 0;        ///< rays that end here
   bool steiner = false;
   LabelEvidence labels;  ///< labels of the points that this vertex stands for
 };

@@ -13,11 +13,24 @@
 namespace facet_mapping {
 namespace {
 
+Label sky_of(const LabelSet& labels) {
+  for (const ClassInfo& info : labels.classes()) {
+    if (info.sky) {
+      return info.id;
+    }
+  }
+  return kUnlabelled;
+}
+
 // Sums up over the views of one mesh.
 class Evaluator {
  public:
-  Evaluator(const TriangleMesh& mesh, const Dataset& dataset, const EvaluationOptions& options)
+  Evaluator(const TriangleMesh& mesh,
+            const LabelSet& labels,
+            const Dataset& dataset,
+            const EvaluationOptions& options)
       : mesh_(mesh),
+        background_(sky_of(labels)),
         dataset_(dataset),
         options_(options),
         renderer_(make_renderer()),
@@ -60,11 +73,14 @@ class Evaluator {
     if (image.facets.size() != truth.size()) {
       image = render(frame.view, truth.size(), frame.gt_labels);
     }
-    labels_.add(label_image(image, mesh_), truth);
+    cv::Mat predicted = label_image(image, mesh_);
+    predicted.setTo(cv::Scalar(background_), image.facets < 0);
+    labels_.add(predicted, truth);
     ++result_.label_views;
   }
 
   const TriangleMesh& mesh_;
+  Label background_;  // what an open view shows
   const Dataset& dataset_;
   const EvaluationOptions& options_;
   std::unique_ptr<FacetRenderer> renderer_;
@@ -97,8 +113,8 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const EvaluationOptions& options,
                              const EvaluationProgress& progress) {
   const std::vector<std::size_t> views = chosen_views(dataset, options);
-  const TriangleMesh shown = shown_facets(mesh, labels, options.hide_unlabelled, options.hide_sky);
-  Evaluator evaluator(shown, dataset, options);
+  const TriangleMesh shown = shown_facets(mesh, labels, options.hidden);
+  Evaluator evaluator(shown, labels, dataset, options);
   for (std::size_t k = 0; k < views.size(); ++k) {
     evaluator.add_view(views[k]);
     if (progress) {
@@ -114,18 +130,15 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
   return result;
 }
 
-TriangleMesh shown_facets(const TriangleMesh& mesh,
-                          const LabelSet& labels,
-                          bool hide_unlabelled,
-                          bool hide_sky) {
-  if (mesh.labels.empty() || !(hide_unlabelled || hide_sky)) {
-    return mesh;
-  }
+TriangleMesh shown_facets(const TriangleMesh& mesh, const LabelSet& labels, const Hidden& hidden) {
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t f = 0; f < keep.size(); ++f) {
-    const ClassInfo* info = labels.find(mesh.labels[f]);
+    const Label label = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
+    const ClassInfo* info = labels.find(label);
     const bool is_sky = info != nullptr && info->sky;
-    keep[f] = !(hide_unlabelled && mesh.labels[f] == kUnlabelled) && !(hide_sky && is_sky);
+    const bool is_unlabelled = !mesh.labels.empty() && label == kUnlabelled;
+    keep[f] = !(hidden.gaps && is_gap(mesh, f)) && !(hidden.unlabelled && is_unlabelled) &&
+              !(hidden.sky && is_sky);
   }
   return select_facets(mesh, keep);
 }

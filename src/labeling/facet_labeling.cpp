@@ -12,6 +12,7 @@
 #include "labeling/vertex_votes.h"
 
 #include "facet_mapping/labeling/alpha_expansion.h"
+#include "facet_mapping/render/observed_mesh.h"
 
 namespace facet_mapping {
 namespace {
@@ -96,6 +97,29 @@ LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const Labeling
   return result;
 }
 
+/// Gaps take no part: they would carry classes across space that nobody saw.
+LabelingResult label_observed(const TriangleMesh& whole,
+                              const std::vector<LabeledView>& views,
+                              const std::vector<FacetImage>& renderings,
+                              const LabelingConfig& config) {
+  const ObservedMesh observed(whole);
+  VertexVotes votes = count_votes(observed.mesh(), views, renderings, config);
+  if (votes.classes.empty()) {
+    return unlabelled(whole);
+  }
+  const LabelingResult part = solve(observed.mesh(), std::move(votes), config);
+  LabelingResult result = unlabelled(whole);
+  for (std::size_t k = 0; k < part.labels.size(); ++k) {
+    const std::uint32_t f = observed.whole_facets()[k];
+    result.labels[f] = part.labels[k];
+    result.confidence[f] = part.confidence[k];
+    result.views[f] = part.views[k];
+  }
+  result.energy_before = part.energy_before;
+  result.energy_after = part.energy_after;
+  return result;
+}
+
 }  // namespace
 
 LabelingResult label_facets(const TriangleMesh& mesh,
@@ -105,11 +129,19 @@ LabelingResult label_facets(const TriangleMesh& mesh,
   check_config(config);
   validate(mesh);
   check_views(views, renderings);
-  VertexVotes votes = count_votes(mesh, views, renderings, config);
-  LabelingResult result =
-      votes.classes.empty() ? unlabelled(mesh) : solve(mesh, std::move(votes), config);
+  LabelingResult result = label_observed(mesh, views, renderings, config);
   result.changed = count_changed(mesh, result.labels);
   return result;
+}
+
+void apply_labeling(const LabelingResult& labeling, TriangleMesh* mesh) {
+  std::vector<std::uint16_t> views = labeling.views;
+  for (std::size_t f = 0; f < views.size(); ++f) {
+    views[f] = is_gap(*mesh, f) ? 0 : std::max<std::uint16_t>(views[f], 1);
+  }
+  mesh->labels = labeling.labels;
+  mesh->confidence = labeling.confidence;
+  mesh->views = std::move(views);
 }
 
 }  // namespace facet_mapping

@@ -63,6 +63,16 @@ const ClassInfo* LabelSet::find_color(const Rgb& color) const {
   return find_class(classes_, [&color](const ClassInfo& info) { return has_color(info, color); });
 }
 
+std::vector<Label> LabelSet::sky_ids() const {
+  std::vector<Label> ids;
+  for (const ClassInfo& info : classes_) {
+    if (info.sky) {
+      ids.push_back(info.id);
+    }
+  }
+  return ids;
+}
+
 std::string LabelSet::name_of(Label id) const {
   if (const ClassInfo* info = find(id)) {
     return info->name;

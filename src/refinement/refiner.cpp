@@ -16,7 +16,10 @@ RefinementResult refine(const TriangleMesh& mesh,
   check_views(views);
   validate(mesh);
   check_mesh(mesh);
-  return RefinementRun(mesh, views, labels, config, progress).run();
+  RefinementConfig own_config = config;
+  const std::vector<Label> sky = labels.sky_ids();
+  own_config.labeling.excluded.insert(own_config.labeling.excluded.end(), sky.begin(), sky.end());
+  return RefinementRun(mesh, views, labels, own_config, progress).run();
 }
 
 }  // namespace facet_mapping

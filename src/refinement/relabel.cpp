@@ -15,9 +15,7 @@ void RefinementRun::relabel(TriangleMesh* mesh) {
   if (!mesh->labels.empty()) {
     result_.relabelled += labeling.changed;
   }
-  mesh->labels = labeling.labels;
-  mesh->confidence = labeling.confidence;
-  mesh->views = labeling.views;
+  apply_labeling(labeling, mesh);
 }
 
 }  // namespace facet_mapping

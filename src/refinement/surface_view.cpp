@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
 
+#include "facet_mapping/render/observed_mesh.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -83,11 +85,12 @@ std::vector<SurfaceView> render_surfaces(const TriangleMesh& mesh,
                                          const std::vector<View>& views,
                                          double min_incidence_cos) {
   const std::vector<Eigen::Vector3d> normals = facet_normals(mesh);
+  const ObservedMesh observed(mesh);
   std::vector<SurfaceView> surfaces(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t k) {
     const std::unique_ptr<FacetRenderer> renderer = make_renderer();
     surfaces[k] = make_surface_view(
-        mesh, normals, views[k], renderer->render(mesh, views[k]), min_incidence_cos);
+        mesh, normals, views[k], observed.render(renderer.get(), views[k]), min_incidence_cos);
   });
   return surfaces;
 }

@@ -136,6 +136,10 @@ std::vector<LabeledPoint> points_from_cloud(const sensor_msgs::PointCloud2& clou
   return points;
 }
 
+bool has_label_field(const sensor_msgs::PointCloud2& cloud) {
+  return find_field(cloud, "label") != nullptr;
+}
+
 sensor_msgs::PointCloud2 cloud_from_points(const std::vector<LabeledPoint>& points,
                                            const std_msgs::Header& header) {
   sensor_msgs::PointCloud2 cloud;

@@ -9,6 +9,7 @@
 
 #include "facet_mapping/labels/label_image.h"
 #include "facet_mapping/render/facet_renderer.h"
+#include "facet_mapping/render/observed_mesh.h"
 
 namespace facet_mapping {
 namespace {
@@ -53,7 +54,8 @@ void LabelImagePublisher::render(const std_msgs::Header& header) {
   if (!state || state->mesh.empty() || !view) {
     return;
   }
-  const cv::Mat ids = label_image(make_renderer()->render(state->mesh, view->view), state->mesh);
+  const cv::Mat ids =
+      label_image(ObservedMesh(state->mesh).render(make_renderer().get(), view->view), state->mesh);
   namespace encodings = sensor_msgs::image_encodings;
   const std::string& encoding = wide_ids_ ? encodings::MONO16 : encodings::MONO8;
   const cv::Mat pixels = wide_ids_ ? ids : narrow(ids);

@@ -11,10 +11,12 @@ using Clock = std::chrono::steady_clock;
 
 MapWorker::MapWorker(LabelSet labels,
                      const MapConfig& config,
+                     const CloudConfig& cloud,
                      std::size_t queue_size,
                      double update_period_s,
                      Callbacks callbacks)
-    : queue_size_(queue_size),
+    : cloud_(cloud),
+      queue_size_(queue_size),
       update_period_(update_period_s),
       callbacks_(std::move(callbacks)),
       map_(std::move(labels), config),
@@ -25,13 +27,13 @@ MapWorker::~MapWorker() {
   stop();
 }
 
-bool MapWorker::push(PointFrame frame, std::string sensor) {
+bool MapWorker::push(PointFrame frame, std::string sensor, bool is_scan) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (queue_.size() >= queue_size_ || stopping_) {
       return false;
     }
-    queue_.push_back({std::move(frame), std::move(sensor)});
+    queue_.push_back({std::move(frame), std::move(sensor), is_scan});
   }
   wake_.notify_one();
   return true;
@@ -78,7 +80,7 @@ void MapWorker::run() {
   std::uint64_t epoch = 0;
   while (wait_for_frames(&frames, &epoch)) {
     try {
-      integrate(frames, epoch);
+      integrate(&frames, epoch);
     } catch (const std::exception& e) {
       callbacks_.on_error(e.what());
     }
@@ -91,9 +93,23 @@ void MapWorker::run() {
   }
 }
 
-bool MapWorker::add_frames(const std::deque<Item>& frames) {
-  for (const Item& item : frames) {
+void MapWorker::clean_scan(PointFrame* frame) {
+  std::vector<Eigen::Vector3f> scan;
+  scan.reserve(frame->points.size());
+  for (const LabeledPoint& point : frame->points) {
+    scan.push_back(point.position);
+  }
+  CloudReport report;
+  frame->points = thin_cloud(scan, cloud_, &report);
+  callbacks_.on_cloud(report);
+}
+
+bool MapWorker::add_frames(std::deque<Item>* frames) {
+  for (Item& item : *frames) {
     try {
+      if (item.is_scan) {
+        clean_scan(&item.frame);
+      }
       callbacks_.on_frame(map_.add(item.frame, item.sensor));
     } catch (const std::invalid_argument& e) {
       callbacks_.on_error(e.what());
@@ -102,7 +118,7 @@ bool MapWorker::add_frames(const std::deque<Item>& frames) {
   return map_.pending() > 0;
 }
 
-void MapWorker::integrate(const std::deque<Item>& frames, std::uint64_t epoch) {
+void MapWorker::integrate(std::deque<Item>* frames, std::uint64_t epoch) {
   if (epoch != map_epoch_) {
     map_.reset();
     map_epoch_ = epoch;

@@ -23,6 +23,13 @@ constexpr char kHowToGetAMesh[] =
     "points with a pose must come first; see the topics under point_topics (`rostopic hz`) and the "
     "mapper's entry on /diagnostics";
 
+/// The map knows how far its points may be.
+CloudConfig cloud_config(const MapperNodeConfig& config) {
+  CloudConfig cloud = config.cloud;
+  cloud.max_range_m = config.map.max_range_m;
+  return cloud;
+}
+
 }  // namespace
 
 MapperNode::MapperNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
@@ -34,9 +41,11 @@ MapperNode::MapperNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
       services_(private_nh, &publisher_, &tf_buffer_, kHowToGetAMesh),
       worker_(labels_,
               config_.map,
+              cloud_config(config_),
               static_cast<std::size_t>(config_.queue_size),
               config_.update_period_s,
               {[this](const FrameReport& report) { note_frame(report); },
+               [this](const CloudReport& report) { note_cloud(report); },
                [this](MapUpdate update) { publish_update(std::move(update)); },
                [this](const std::string& error) {
                  diagnostics_.complain("map update failed", error);
@@ -71,18 +80,21 @@ void MapperNode::receive(const std::string& topic, const sensor_msgs::PointCloud
   diagnostics_.count_input(topic);
   check_time(topic, cloud->header.stamp);
   try {
-    std::vector<LabeledPoint> points = points_from_cloud(*cloud);
-    if (points.empty()) {
+    PointFrame frame;
+    frame.stamp = cloud->header.stamp.toSec();
+    frame.points = points_from_cloud(*cloud);
+    if (frame.points.empty()) {
       diagnostics_.complain("empty cloud", "'" + topic + "': a cloud without points was ignored");
       return;
     }
-    const std_msgs::Header header = cloud->header;
-    transforms_.push(
-        header.frame_id,
-        header.stamp,
-        [this, topic, header, points = std::move(points)](const Eigen::Isometry3d& pose) mutable {
-          enqueue(topic, header, std::move(points), pose);
-        });
+    const bool is_scan = !has_label_field(*cloud);
+    transforms_.push(cloud->header.frame_id,
+                     cloud->header.stamp,
+                     [this, topic, is_scan, frame = std::move(frame)](
+                         const Eigen::Isometry3d& map_from_sensor) mutable {
+                       frame.world_from_sensor = map_from_sensor;
+                       enqueue(topic, is_scan, std::move(frame));
+                     });
   } catch (const std::invalid_argument& e) {
     diagnostics_.complain("unusable cloud", "'" + topic + "': " + e.what());
   }
@@ -105,15 +117,8 @@ void MapperNode::check_time(const std::string& topic, const ros::Time& stamp) {
   }
 }
 
-void MapperNode::enqueue(const std::string& topic,
-                         const std_msgs::Header& header,
-                         std::vector<LabeledPoint> points,
-                         const Eigen::Isometry3d& map_from_sensor) {
-  PointFrame frame;
-  frame.stamp = header.stamp.toSec();
-  frame.world_from_sensor = map_from_sensor;
-  frame.points = std::move(points);
-  if (!worker_.push(std::move(frame), topic)) {
+void MapperNode::enqueue(const std::string& topic, bool is_scan, PointFrame frame) {
+  if (!worker_.push(std::move(frame), topic, is_scan)) {
     diagnostics_.complain("map too slow",
                           std::to_string(config_.queue_size) +
                               " frames wait for the map already, one is dropped: raise "
@@ -158,6 +163,14 @@ void MapperNode::note_frame(const FrameReport& report) {
                               " points of a frame have class ids that '" + config_.label_file +
                               "' does not list; they carve, but add no class");
   }
+}
+
+void MapperNode::note_cloud(const CloudReport& report) {
+  diagnostics_.count("scan points kept", report.points);
+  diagnostics_.count("scan points not finite", report.not_finite);
+  diagnostics_.count("scan points out of range", report.out_of_range);
+  diagnostics_.count("scan points isolated", report.isolated);
+  diagnostics_.count("scan points thinned", report.thinned);
 }
 
 void MapperNode::publish_update(MapUpdate update) {

@@ -66,6 +66,35 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
   });
 }
 
+void add_cloud(ParameterTable* table, CloudConfig* c) {
+  table->add("cloud/voxel_m",
+             &c->voxel_m,
+             "m",
+             "clouds without `label` (LiDAR): at most one point per cube of this size; 0: all",
+             kNotNegative);
+  table->add("cloud/min_range_m",
+             &c->min_range_m,
+             "m",
+             "clouds without `label`: nearer points (the vehicle) are dropped",
+             kNotNegative);
+  table->add(
+      "cloud/outlier_radius_m",
+      &c->outlier_radius_m,
+      "m",
+      "clouds without `label`: points with too few others in this radius are dropped; 0: off",
+      kNotNegative);
+  table->add("cloud/outlier_neighbors",
+             &c->outlier_neighbors,
+             "",
+             "clouds without `label`: fewest others in that radius",
+             {0, 1000});
+  table->add("cloud/sigma_m",
+             &c->sigma_m,
+             "m",
+             "clouds without `label`: standard deviation of the range",
+             kNotNegative);
+}
+
 void add_map(ParameterTable* table, MapConfig* c) {
   table->add_choice<DynamicPolicy>(
       "dynamic_classes",
@@ -109,6 +138,7 @@ ParameterTable parameter_table(MapperNodeConfig* config) {
             "least wall time between two updates of the surface",
             kNotNegative);
   add_map(&table, &config->map);
+  add_cloud(&table, &config->cloud);
   add_carving(&table, &config->map.carving);
   add_output(&table, &config->output);
   table.add_check([config]() -> std::string {

@@ -3,6 +3,7 @@
 #include "facet_mapping/ros/parameters.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -56,10 +57,15 @@ std::string markdown_range(const Parameter& parameter) {
   if (std::isinf(parameter.limits.min) && std::isinf(parameter.limits.max)) {
     return parameter.type;
   }
+  constexpr int kDigits = 12;  // whole numbers in full
   std::ostringstream text;
-  text << parameter.type << ", ";
+  text << std::setprecision(kDigits) << parameter.type << ", ";
   if (std::isinf(parameter.limits.max)) {
-    text << "at least " << parameter.limits.min;
+    const bool positive = parameter.limits.min > 0.0 && parameter.limits.min <= kSmallestPositive;
+    text << (positive ? "above 0" : "at least ");
+    if (!positive) {
+      text << parameter.limits.min;
+    }
   } else {
     text << parameter.limits.min << " to " << parameter.limits.max;
   }

@@ -9,6 +9,7 @@
 
 #include "facet_mapping/labeling/facet_labeling.h"
 #include "facet_mapping/render/facet_renderer.h"
+#include "facet_mapping/render/observed_mesh.h"
 #include "facet_mapping/ros/mesh_conversions.h"
 #include "facet_mapping/ros/refine_request.h"
 #include "facet_mapping/ros/service_status.h"
@@ -272,15 +273,16 @@ bool RefineServices::relabel(Relabel::Request& /*request*/, Relabel::Response& r
     const auto result = std::make_shared<LabelingResult>();
     job_.run("~relabel", [this, start, views, result] {
       const auto renderer = make_renderer();
+      const ObservedMesh observed(start->mesh);
       std::vector<FacetImage> renderings;
       for (const LabeledView& view : *views) {
-        renderings.push_back(renderer->render(start->mesh, view.view));
+        renderings.push_back(observed.render(renderer.get(), view.view));
       }
-      *result = label_facets(start->mesh, *views, renderings, defaults_.labeling);
+      LabelingConfig config = defaults_.labeling;
+      config.excluded = sources_.refined->labels().sky_ids();
+      *result = label_facets(start->mesh, *views, renderings, config);
       TriangleMesh mesh = start->mesh;
-      mesh.labels = result->labels;
-      mesh.confidence = result->confidence;
-      mesh.views = result->views;
+      apply_labeling(*result, &mesh);
       publish_result(std::move(mesh), start->stamp);
     });
     response.facets = result->labels.size();

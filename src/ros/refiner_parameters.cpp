@@ -57,7 +57,7 @@ void add_details(ParameterTable* table, RefinementConfig* c) {
              &c->subdivide_px,
              "px",
              "facets covering more pixels than this in their best view are split",
-             {1.0, 1e12});
+             {1.0, kInfinity});
   table->add_check([c]() -> std::string {
     return c->ncc_window_px % 2 == 1 && c->semantic_window_px % 2 == 1
                ? ""

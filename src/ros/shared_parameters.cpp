@@ -64,7 +64,7 @@ void add_output(ParameterTable* table, MeshOutput* config) {
              &config->chunk_size_m,
              "m",
              "edge of the grid cells in which the mesh is published",
-             {0.1, 1e6});
+             {0.1, kInfinity});
   table->add("marker_max_triangles",
              &config->marker_max_triangles,
              "triangles",

@@ -10,7 +10,7 @@
 namespace facet_mapping {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Limits kPositive{1e-9, kInfinity};
+constexpr Limits kPositive{kSmallestPositive, kInfinity};
 constexpr Limits kNotNegative{0.0, kInfinity};
 constexpr Limits kUnit{0.0, 1.0};
 

@@ -11,7 +11,7 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
              "px",
              "search range, a multiple of 16",
              {16, 1024});
-  table->add("stereo/block_size", &c->block_size, "px", "matching window, odd", {1, 51});
+  table->add("stereo/block_size", &c->block_size, "px", "matching window, odd", {1, 11});
   table->add("stereo/uniqueness_percent",
              &c->uniqueness_percent,
              "%",
@@ -21,12 +21,22 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
              &c->left_right_tolerance_px,
              "px",
              "largest disagreement of the two matching directions",
-             kNotNegative);
+             {0.0, 100.0});
   table->add("stereo/speckle_size_px",
              &c->speckle_size_px,
              "px",
              "smaller regions of similar disparity are dropped",
              {0, 1e6});
+  table->add("stereo/edge_jump_px",
+             &c->edge_jump_px,
+             "px",
+             "neighbours whose disparities differ more are a depth edge",
+             kPositive);
+  table->add("stereo/edge_margin_px",
+             &c->edge_margin_px,
+             "px",
+             "pixels so near to a depth edge or a hole are dropped",
+             {0, 100});
   table->add("stereo/disparity_sigma_px",
              &c->disparity_sigma_px,
              "px",
@@ -51,6 +61,11 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
              "px",
              "cell size where no pixel reaches min_gradient",
              {1, 1000});
+  table->add_check([c]() -> std::string {
+    return c->cell_px <= c->flat_cell_px
+               ? ""
+               : "'stereo/flat_cell_px' must be at least 'stereo/cell_px'";
+  });
   table->add_check([c]() -> std::string {
     return c->num_disparities % 16 == 0 ? "" : "'stereo/num_disparities' must be a multiple of 16";
   });

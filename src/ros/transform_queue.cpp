@@ -32,7 +32,7 @@ TransformQueue::TransformQueue(const ros::NodeHandle& nh,
 }
 
 void TransformQueue::push(const std::string& frame_id, const ros::Time& stamp, Ready ready) {
-  const Waiting item{without_slash(frame_id), stamp, ros::WallTime::now(), std::move(ready)};
+  Waiting item{without_slash(frame_id), stamp, ros::WallTime::now(), std::move(ready)};
   if (item.frame_id.empty()) {
     diagnostics_->complain("no frame_id",
                            "a message has no frame_id in its header, so that its pose cannot be "
@@ -50,7 +50,7 @@ void TransformQueue::push(const std::string& frame_id, const ros::Time& stamp, R
                                "is the node that publishes tf running?");
     waiting_.pop_front();
   }
-  waiting_.push_back(item);
+  waiting_.push_back(std::move(item));
   timer_.start();
 }
 

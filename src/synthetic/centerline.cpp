@@ -8,9 +8,9 @@
 namespace facet_mapping {
 namespace {
 
-constexpr double kStep = 0.5;        // metres between table entries
-constexpr double kBehind = 6.0;      // geometry behind the first camera
-constexpr double kBeyond = 30.0;     // table beyond the road's end, for what closes the street
+constexpr double kStep = 0.5;     // metres between table entries
+constexpr double kBehind = 6.0;   // geometry behind the first camera
+constexpr double kBeyond = 30.0;  // table beyond the road's end, for what closes the street
 constexpr double kPavementSlope = 0.01;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -41,12 +41,14 @@ Centerline::Centerline(const StreetConfig& config)
   origin_height_ = config.camera_height_m + ground_height(cross_section::kLane);
 }
 
-double Centerline::heading(double s) const { return bend_ * std::sin(wave_number_ * s); }
+double Centerline::heading(double s) const {
+  return bend_ * std::sin(wave_number_ * s);
+}
 
 Eigen::Vector2d Centerline::position(double s) const {
   const double index = std::floor((s - begin_) / kStep);
-  const auto k = static_cast<std::size_t>(
-      std::clamp(index, 0.0, static_cast<double>(table_.size() - 1)));
+  const auto k =
+      static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(table_.size() - 1)));
   const double start = begin_ + static_cast<double>(k) * kStep;
   const double middle = heading(0.5 * (start + s));
   return table_[k] + (s - start) * Eigen::Vector2d(std::cos(middle), std::sin(middle));

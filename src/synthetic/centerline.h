@@ -16,13 +16,13 @@ namespace facet_mapping {
 namespace cross_section {
 constexpr double kRoadHalfWidth = 5.2;
 constexpr double kKerbWidth = 0.15;
-constexpr double kStripEnd = 6.5;      ///< grass or paving with trees and poles
+constexpr double kStripEnd = 6.5;  ///< grass or paving with trees and poles
 constexpr double kPavementEnd = 8.7;
-constexpr double kBuildingLine = 10.0; ///< mean facade
-constexpr double kBackdrop = 27.0;     ///< trees that close the scene
-constexpr double kLane = -1.3;         ///< where the car's left camera drives
-constexpr double kParking = 4.15;      ///< middle of a parked car
-constexpr double kStripMiddle = 5.85;  ///< where trees and poles stand
+constexpr double kBuildingLine = 10.0;  ///< mean facade
+constexpr double kBackdrop = 27.0;      ///< trees that close the scene
+constexpr double kLane = -1.3;          ///< where the car's left camera drives
+constexpr double kParking = 4.15;       ///< middle of a parked car
+constexpr double kStripMiddle = 5.85;   ///< where trees and poles stand
 }  // namespace cross_section
 
 class Centerline {

@@ -31,10 +31,22 @@ struct Gradient {
 };
 
 /// The middles of a cube's edges, four of them twice.
-constexpr std::array<Gradient, 16> kGradients{{{1, 1, 0},   {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0},
-                                               {1, 0, 1},   {-1, 0, 1},  {1, 0, -1}, {-1, 0, -1},
-                                               {0, 1, 1},   {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
-                                               {1, 1, 0},   {-1, 1, 0},  {0, -1, 1}, {0, -1, -1}}};
+constexpr std::array<Gradient, 16> kGradients{{{1, 1, 0},
+                                               {-1, 1, 0},
+                                               {1, -1, 0},
+                                               {-1, -1, 0},
+                                               {1, 0, 1},
+                                               {-1, 0, 1},
+                                               {1, 0, -1},
+                                               {-1, 0, -1},
+                                               {0, 1, 1},
+                                               {0, -1, 1},
+                                               {0, 1, -1},
+                                               {0, -1, -1},
+                                               {1, 1, 0},
+                                               {-1, 1, 0},
+                                               {0, -1, 1},
+                                               {0, -1, -1}}};
 
 /// Dot product with the gradient that the hash draws; a table, as branches on it mispredict.
 float corner(std::uint32_t hash, float x, float y, float z) {
@@ -42,9 +54,13 @@ float corner(std::uint32_t hash, float x, float y, float z) {
   return g.x * x + g.y * y + g.z * z;
 }
 
-float fade(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
+float fade(float t) {
+  return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
+}
 
-float mix(float a, float b, float t) { return a + t * (b - a); }
+float mix(float a, float b, float t) {
+  return a + t * (b - a);
+}
 
 /// Length of [0, x] covered by the stripes, the integral of the stripe pattern.
 float stripe_integral(float x, float period, float width) {
@@ -78,8 +94,8 @@ float gradient_noise(const Eigen::Vector3f& point, std::uint32_t seed) {
   const float u = fade(x);
   const float v = fade(y);
   const float low = mix(row(0U, y, z, u), row(kStepY, y - 1.0F, z, u), v);
-  const float high = mix(
-      row(kStepZ, y, z - 1.0F, u), row(kStepY + kStepZ, y - 1.0F, z - 1.0F, u), v);
+  const float high =
+      mix(row(kStepZ, y, z - 1.0F, u), row(kStepY + kStepZ, y - 1.0F, z - 1.0F, u), v);
   return mix(low, high, fade(z));
 }
 

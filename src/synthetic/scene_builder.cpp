@@ -51,7 +51,9 @@ void SceneBuilder::begin_part(const Eigen::Isometry3d& map_from_local) {
   map_from_local_ = map_from_local;
 }
 
-void SceneBuilder::finish() { end_part(); }
+void SceneBuilder::finish() {
+  end_part();
+}
 
 void SceneBuilder::end_part() {
   if (street_->parts.empty()) {
@@ -103,11 +105,8 @@ void SceneBuilder::add_triangle(std::uint32_t a,
   street_->material.push_back(surface.material);
 }
 
-void SceneBuilder::add_grid(int rows,
-                            int columns,
-                            const GridVertex& vertex,
-                            const Surface& surface,
-                            const GridCell& keep) {
+void SceneBuilder::add_grid(
+    int rows, int columns, const GridVertex& vertex, const Surface& surface, const GridCell& keep) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   const std::size_t stride = static_cast<std::size_t>(columns) + 1;
   std::vector<std::uint32_t> index(stride * (static_cast<std::size_t>(rows) + 1), kUnused);
@@ -139,8 +138,7 @@ void SceneBuilder::add_quad(const Quad& quad, const Surface& surface) {
   add_triangle(a, a + 2, a + 3, surface);
 }
 
-void SceneBuilder::add_flat(const std::array<Eigen::Vector3d, 4>& corners,
-                            const Surface& surface) {
+void SceneBuilder::add_flat(const std::array<Eigen::Vector3d, 4>& corners, const Surface& surface) {
   const int axis = facing_axis(corners);
   Quad quad;
   for (int k = 0; k < 4; ++k) {
@@ -154,9 +152,8 @@ void SceneBuilder::add_box(const Eigen::Vector3d& low,
                            const Surface& surface,
                            const char* without) {
   const auto corner = [&](int x, int y, int z) {
-    return Eigen::Vector3d(x != 0 ? high.x() : low.x(),
-                           y != 0 ? high.y() : low.y(),
-                           z != 0 ? high.z() : low.z());
+    return Eigen::Vector3d(
+        x != 0 ? high.x() : low.x(), y != 0 ? high.y() : low.y(), z != 0 ? high.z() : low.z());
   };
   const auto face = [&](char name, const std::array<Eigen::Vector3d, 4>& corners) {
     if (std::strchr(without, name) == nullptr) {

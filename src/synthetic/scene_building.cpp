@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "building_style.h"
 #include "scene_parts.h"
 
 namespace facet_mapping {
@@ -11,109 +11,14 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 4>;
 
-constexpr double kReveal = 0.18;     // depth of a window in its wall
-constexpr double kOverhang = 0.40;   // roof before the facade
-constexpr double kBelowGround = 0.3; // walls start this much below the pavement
-
-struct Style {
-  double floor_height;
-  double sill_height;
-  double window_width;
-  double window_height;
-  int floors;
-  int bays;
-  int door_bay;
-  bool pitched;
-  bool ledge;  // a band of stone over the ground floor
-  Surface wall;
-  Surface window;
-  Surface door;
-  Surface trim;
-  Surface roof;
-};
-
-Eigen::Vector3f wall_color(Random* random) {
-  static const std::array<Eigen::Vector3f, 7> kColors{{{0.60F, 0.55F, 0.42F},
-                                                       {0.55F, 0.36F, 0.24F},
-                                                       {0.62F, 0.61F, 0.57F},
-                                                       {0.45F, 0.50F, 0.52F},
-                                                       {0.58F, 0.45F, 0.30F},
-                                                       {0.40F, 0.24F, 0.20F},
-                                                       {0.50F, 0.53F, 0.42F}}};
-  return kColors[random->integer(static_cast<int>(kColors.size()))] *
-         static_cast<float>(random->uniform(0.7, 1.0));
-}
-
-Material wall_material(Random* random) {
-  Material material;
-  material.seed = random->bits32();
-  material.color = wall_color(random);
-  switch (random->integer(3)) {
-    case 0:
-      material.kind = MaterialKind::kBrick;
-      material.color = Eigen::Vector3f(0.36F, 0.16F, 0.11F) *
-                       static_cast<float>(random->uniform(0.7, 1.3));
-      material.accent = Eigen::Vector3f::Constant(0.45F);
-      material.size = {0.30F, 0.10F};
-      break;
-    case 1:
-      material.kind = MaterialKind::kPanels;
-      material.accent = 0.55F * material.color;
-      material.size = {1.2F, 0.6F};
-      break;
-    default:
-      material.kind = MaterialKind::kPlaster;
-      material.accent = 0.6F * material.color;
-  }
-  return material;
-}
-
-Surface building_surface(SceneBuilder* builder, const Material& material) {
-  return {street_class::kBuilding, builder->add_material(material)};
-}
-
-Material plain(MaterialKind kind, const Eigen::Vector3f& color, Random* random) {
-  Material material;
-  material.kind = kind;
-  material.color = color;
-  material.accent = 0.6F * color;
-  material.seed = random->bits32();
-  return material;
-}
-
-Style draw_style(SceneBuilder* builder, double width, Random* random) {
-  Style style;
-  style.floor_height = random->uniform(2.9, 3.4);
-  style.sill_height = random->uniform(0.8, 1.0);
-  style.window_width = random->uniform(1.0, 1.5);
-  style.window_height = random->uniform(1.3, 1.6);
-  style.floors = 2 + random->integer(2);
-  style.bays = std::max(2, static_cast<int>(width / random->uniform(2.5, 3.2)));
-  style.door_bay = random->integer(style.bays);
-  style.pitched = random->chance(0.6);
-  style.ledge = random->chance(0.6);
-  style.wall = building_surface(builder, wall_material(random));
-  Material window = plain(MaterialKind::kWindow, {0.05F, 0.06F, 0.07F}, random);
-  window.accent = random->chance(0.7) ? Eigen::Vector3f(0.75F, 0.74F, 0.70F)
-                                      : Eigen::Vector3f(0.20F, 0.14F, 0.09F);
-  window.size = Eigen::Vector2d(style.window_width, style.window_height).cast<float>();
-  style.window = building_surface(builder, window);
-  Material door = plain(MaterialKind::kDoor, {0.25F, 0.13F, 0.07F}, random);
-  door.size = Eigen::Vector2d(style.window_width, style.sill_height + style.window_height)
-                  .cast<float>();
-  style.door = building_surface(builder, door);
-  style.trim = building_surface(
-      builder, plain(MaterialKind::kTrim, Eigen::Vector3f(0.55F, 0.53F, 0.48F), random));
-  Material roof = plain(MaterialKind::kRoofTiles, {0.36F, 0.14F, 0.09F}, random);
-  roof.size = {0.25F, 0.32F};
-  style.roof = building_surface(builder, roof);
-  return style;
-}
+constexpr double kReveal = 0.18;      // depth of a window in its wall
+constexpr double kOverhang = 0.40;    // roof before the facade
+constexpr double kBelowGround = 0.3;  // walls start this much below the pavement
 
 /// A facade: a wall cut by grid lines, some of whose cells are openings.
 class Facade {
  public:
-  Facade(SceneBuilder* builder, const Style& style, double width)
+  Facade(SceneBuilder* builder, const BuildingStyle& style, double width)
       : builder_(builder), style_(style), x_{0.0}, z_{-kBelowGround, 0.0} {
     const double bay = width / style.bays;
     for (int b = 0; b < style.bays; ++b) {
@@ -148,18 +53,16 @@ class Facade {
 
   void add_cell(int i, int k) {
     if (!is_opening(i, k)) {
-      builder_->add_flat({corner(i, 0, k), corner(i + 1, 0, k), corner(i + 1, 0, k + 1),
-                          corner(i, 0, k + 1)},
-                         style_.wall);
+      builder_->add_flat(
+          {corner(i, 0, k), corner(i + 1, 0, k), corner(i + 1, 0, k + 1), corner(i, 0, k + 1)},
+          style_.wall);
       return;
     }
     add_pane(i, k);
     add_reveals(i, k);
     if (!is_door(i, k)) {
-      builder_->add_box({x_[i] - 0.08, -0.12, z_[k] - 0.07},
-                        {x_[i + 1] + 0.08, 0.0, z_[k]},
-                        style_.trim,
-                        "Y");
+      builder_->add_box(
+          {x_[i] - 0.08, -0.12, z_[k] - 0.07}, {x_[i + 1] + 0.08, 0.0, z_[k]}, style_.trim, "Y");
     }
   }
 
@@ -168,8 +71,8 @@ class Facade {
     const int bottom = door ? 1 : k;
     const auto vertex = [&](int di, int dk) {
       const Eigen::Vector3d p = corner(i + di, kReveal, k + dk);
-      return SceneVertex{p, Eigen::Vector3d(p.x() - x_[i], p.z() - z_[bottom], i + 64.0 * k)
-                                .cast<float>()};
+      return SceneVertex{
+          p, Eigen::Vector3d(p.x() - x_[i], p.z() - z_[bottom], i + 64.0 * k).cast<float>()};
     };
     builder_->add_quad({vertex(0, 0), vertex(1, 0), vertex(1, 1), vertex(0, 1)},
                        door ? style_.door : style_.window);
@@ -177,9 +80,9 @@ class Facade {
 
   void add_reveals(int i, int k) {
     const auto reveal = [&](int i0, int k0, int i1, int k1) {
-      builder_->add_flat({corner(i0, 0, k0), corner(i0, kReveal, k0), corner(i1, kReveal, k1),
-                          corner(i1, 0, k1)},
-                         style_.wall);
+      builder_->add_flat(
+          {corner(i0, 0, k0), corner(i0, kReveal, k0), corner(i1, kReveal, k1), corner(i1, 0, k1)},
+          style_.wall);
     };
     if (!is_opening(i - 1, k)) {
       reveal(i, k, i, k + 1);
@@ -196,29 +99,30 @@ class Facade {
   }
 
   SceneBuilder* builder_;
-  const Style& style_;
+  const BuildingStyle& style_;
   std::vector<double> x_;
   std::vector<double> z_;
 };
 
-void add_side_walls(SceneBuilder* builder, const Style& style, const Eigen::Vector3d& size) {
+void add_side_walls(SceneBuilder* builder,
+                    const BuildingStyle& style,
+                    const Eigen::Vector3d& size) {
   const double w = size.x();
   const double d = size.y();
   const double h = size.z();
   const double low = -kBelowGround;
-  builder->add_flat(
-      {Eigen::Vector3d(0, d, low), {0, 0, low}, {0, 0, h}, {0, d, h}}, style.wall);
-  builder->add_flat(
-      {Eigen::Vector3d(w, 0, low), {w, d, low}, {w, d, h}, {w, 0, h}}, style.wall);
-  builder->add_flat(
-      {Eigen::Vector3d(w, d, low), {0, d, low}, {0, d, h}, {w, d, h}}, style.wall);
+  builder->add_flat({Eigen::Vector3d(0, d, low), {0, 0, low}, {0, 0, h}, {0, d, h}}, style.wall);
+  builder->add_flat({Eigen::Vector3d(w, 0, low), {w, d, low}, {w, d, h}, {w, 0, h}}, style.wall);
+  builder->add_flat({Eigen::Vector3d(w, d, low), {0, d, low}, {0, d, h}, {w, d, h}}, style.wall);
 }
 
 /// Gable triangles; the ridge runs along the facade.
-void add_gable(SceneBuilder* builder, const Style& style, const Eigen::Vector3d& size, double x) {
+void add_gable(SceneBuilder* builder,
+               const BuildingStyle& style,
+               const Eigen::Vector3d& size,
+               double x) {
   const auto vertex = [&](double y, double z) {
-    return builder->add_vertex(
-        {Eigen::Vector3d(x, y, z), Eigen::Vector3d(y, z, x).cast<float>()});
+    return builder->add_vertex({Eigen::Vector3d(x, y, z), Eigen::Vector3d(y, z, x).cast<float>()});
   };
   const std::uint32_t front = vertex(0.0, size.z());
   const std::uint32_t back = vertex(size.y(), size.z());
@@ -230,7 +134,9 @@ void add_gable(SceneBuilder* builder, const Style& style, const Eigen::Vector3d&
   }
 }
 
-void add_pitched_roof(SceneBuilder* builder, const Style& style, const Eigen::Vector3d& size) {
+void add_pitched_roof(SceneBuilder* builder,
+                      const BuildingStyle& style,
+                      const Eigen::Vector3d& size) {
   const double slope = 0.8;  // rise over run: 0.4 of the depth over half of it
   const double w = size.x();
   const double ridge_y = 0.5 * size.y();
@@ -247,18 +153,22 @@ void add_pitched_roof(SceneBuilder* builder, const Style& style, const Eigen::Ve
   };
   slope_quad(-kOverhang, -0.1, w + 0.1);
   slope_quad(size.y() + kOverhang, w + 0.1, -0.1);
-  const Corners soffit{Eigen::Vector3d(-0.1, 0.0, eave_z), {w + 0.1, 0.0, eave_z},
-                       {w + 0.1, -kOverhang, eave_z}, {-0.1, -kOverhang, eave_z}};
+  const Corners soffit{Eigen::Vector3d(-0.1, 0.0, eave_z),
+                       {w + 0.1, 0.0, eave_z},
+                       {w + 0.1, -kOverhang, eave_z},
+                       {-0.1, -kOverhang, eave_z}};
   builder->add_flat(soffit, style.trim);
   add_gable(builder, style, size, 0.0);
   add_gable(builder, style, size, w);
 }
 
-void add_flat_roof(SceneBuilder* builder, const Style& style, const Eigen::Vector3d& size) {
-  builder->add_box({-0.05, -0.22, size.z() - 0.25}, {size.x() + 0.05, 0.0, size.z() + 0.35},
-                   style.trim, "");
-  builder->add_flat({Eigen::Vector3d(0, 0, size.z()), {size.x(), 0, size.z()},
-                     {size.x(), size.y(), size.z()}, {0, size.y(), size.z()}},
+void add_flat_roof(SceneBuilder* builder, const BuildingStyle& style, const Eigen::Vector3d& size) {
+  builder->add_box(
+      {-0.05, -0.22, size.z() - 0.25}, {size.x() + 0.05, 0.0, size.z() + 0.35}, style.trim, "");
+  builder->add_flat({Eigen::Vector3d(0, 0, size.z()),
+                     {size.x(), 0, size.z()},
+                     {size.x(), size.y(), size.z()},
+                     {0, size.y(), size.z()}},
                     style.trim);
 }
 
@@ -270,7 +180,7 @@ void add_building(const Scene& scene,
                   double depth,
                   Random* random) {
   SceneBuilder* builder = scene.builder;
-  const Style style = draw_style(builder, width, random);
+  const BuildingStyle style = draw_building_style(builder, width, random);
   builder->begin_part(map_from_local);
   Facade facade(builder, style, width);
   facade.add();

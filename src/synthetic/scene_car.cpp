@@ -130,8 +130,7 @@ void add_wheel(SceneBuilder* builder,
   const auto point = [&](int k, double y) {
     const double angle = side * 6.283185307179586 * k / kSides;
     const Eigen::Vector3d offset(radius * std::sin(angle), side * y, radius * std::cos(angle));
-    return SceneVertex{hub + offset,
-                       Eigen::Vector3d(offset.x(), offset.z(), y).cast<float>()};
+    return SceneVertex{hub + offset, Eigen::Vector3d(offset.x(), offset.z(), y).cast<float>()};
   };
   const auto tread = [&](int row, int column) {
     return point(row, column == 0 ? -kWheelWidth : 0.0);
@@ -159,8 +158,9 @@ Eigen::Vector3f paint_color(Random* random) {
 }  // namespace
 
 void add_car(const Scene& scene, const Eigen::Isometry3d& map_from_local, Random* random) {
-  const Eigen::Vector3d stretch(
-      random->uniform(0.92, 1.10), random->uniform(0.97, 1.04), random->uniform(0.95, 1.15));
+  const double longer = random->uniform(0.92, 1.10);
+  const double wider = random->uniform(0.97, 1.04);
+  const Eigen::Vector3d stretch(longer, wider, random->uniform(0.95, 1.15));
   Material paint;
   paint.kind = MaterialKind::kCarBody;
   paint.color = paint_color(random);

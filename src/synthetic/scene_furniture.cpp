@@ -50,8 +50,8 @@ void add_sign_plate(const Scene& scene,
   constexpr double kBackX = -kPoleRadius - 0.02;
   const auto vertex = [&](std::size_t k, double x) {
     const Eigen::Vector2d& p = outline[k % outline.size()];
-    return SceneVertex{{x, -p.x(), height + p.y()}, {static_cast<float>(p.x()),
-                                                     static_cast<float>(p.y()), 0.0F}};
+    return SceneVertex{{x, -p.x(), height + p.y()},
+                       {static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F}};
   };
   std::vector<SceneVertex> front_ring;
   std::vector<SceneVertex> back_ring;
@@ -74,8 +74,10 @@ void add_sign_pole(const Scene& scene, const Eigen::Isometry3d& map_from_local, 
   const double height = random->uniform(2.2, 2.6);
   Material face;
   face.kind = MaterialKind::kSign;
-  face.color = shape == 2 ? Eigen::Vector3f(0.02F, 0.10F, 0.45F) : Eigen::Vector3f(0.75F, 0.75F, 0.72F);
-  face.accent = shape == 2 ? Eigen::Vector3f(0.75F, 0.75F, 0.75F) : Eigen::Vector3f(0.55F, 0.02F, 0.02F);
+  face.color =
+      shape == 2 ? Eigen::Vector3f(0.02F, 0.10F, 0.45F) : Eigen::Vector3f(0.75F, 0.75F, 0.72F);
+  face.accent =
+      shape == 2 ? Eigen::Vector3f(0.75F, 0.75F, 0.75F) : Eigen::Vector3f(0.55F, 0.02F, 0.02F);
   face.size = Eigen::Vector2f::Constant(static_cast<float>(half_extent));
   face.seed = 3U * (random->bits32() / 8U) + static_cast<std::uint32_t>(shape);
   const Surface front{street_class::kTrafficSign, scene.builder->add_material(face)};

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "noise.h"
 #include "scene_parts.h"
@@ -11,10 +13,62 @@ namespace {
 
 using namespace cross_section;
 
-constexpr double kSegment = 10.0;  // metres of ground per part
-constexpr double kCell = 0.5;      // metres of a ground cell along the street
-constexpr double kBump = 0.05;     // metres, amplitude of the terrain
+constexpr double kSegment = 10.0;    // metres of ground per part
+constexpr double kCell = 0.5;        // metres of a ground cell along the street
+constexpr double kBump = 0.05;       // metres, amplitude of the terrain
 constexpr double kEndGround = 16.0;  // metres of ground beyond the road's end
+
+/// Metres from the road's middle of the ground's vertices. All pieces take theirs from here, so
+/// that neighbours share their borders and no ray slips through.
+constexpr std::array<double, 22> kStations{kRoadHalfWidth,
+                                           kRoadHalfWidth + kKerbWidth,
+                                           5.75,
+                                           6.15,
+                                           kStripEnd,
+                                           7.2,
+                                           8.0,
+                                           kPavementEnd,
+                                           9.2,
+                                           9.7,
+                                           10.3,
+                                           11.0,
+                                           12.0,
+                                           13.0,
+                                           14.5,
+                                           16.0,
+                                           18.0,
+                                           20.0,
+                                           22.0,
+                                           24.0,
+                                           26.0,
+                                           kBackdrop + 1.0};
+
+std::vector<double> stations(double low, double high) {
+  std::vector<double> inside;
+  std::copy_if(kStations.begin(), kStations.end(), std::back_inserter(inside), [&](double t) {
+    return t >= low && t <= high;
+  });
+  return inside;
+}
+
+constexpr int kAcrossRoad = 20;  // cells of the road from side to side
+
+double road_station(int column) {
+  return kRoadHalfWidth * (2.0 * column / kAcrossRoad - 1.0);
+}
+
+/// From the right backdrop over the road to the left one.
+std::vector<double> all_stations() {
+  std::vector<double> all;
+  for (auto t = kStations.rbegin(); t != kStations.rend(); ++t) {
+    all.push_back(-*t);
+  }
+  for (int column = 1; column < kAcrossRoad; ++column) {
+    all.push_back(road_station(column));
+  }
+  all.insert(all.end(), kStations.begin(), kStations.end());
+  return all;
+}
 
 /// A piece of the street's ground between two values of s.
 struct Segment {
@@ -32,13 +86,12 @@ class GroundLayer {
       : scene_(scene), buildings_(buildings), seed_(seed) {}
 
   void add_road(const Segment& segment) {
-    constexpr int kAcross = 20;
     const auto vertex = [&](int row, int column) {
-      const double t = kRoadHalfWidth * (2.0 * column / kAcross - 1.0);
+      const double t = road_station(column);
       return at(segment.s(row), t, scene_.line->ground_height(t));
     };
     scene_.builder->add_grid(
-        segment.cells, kAcross, vertex, {street_class::kRoad, scene_.shared.asphalt});
+        segment.cells, kAcrossRoad, vertex, {street_class::kRoad, scene_.shared.asphalt});
   }
 
   void add_kerb(const Segment& segment, int side) {
@@ -56,36 +109,35 @@ class GroundLayer {
 
   void add_strip(const Segment& segment,
                  int side,
-                 const std::vector<double>& stations,
+                 const std::vector<double>& across,
                  const Surface& surface) {
     const double bump = surface.label == street_class::kTerrain ? kBump : 0.0;
     const auto vertex = [&](int row, int column) {
       const double s = segment.s(row);
-      const double t = side * stations[column];
-      const bool last = column + 1 == static_cast<int>(stations.size());
-      const bool inner = stations.back() < kBackdrop;
+      const double t = side * across[column];
+      const bool last = column + 1 == static_cast<int>(across.size());
+      const bool inner = across.back() < kBackdrop;
       const bool seam = inner ? row == 0 || row == segment.cells : s > scene_.line->end() - 0.1;
       const bool joins = column == 0 || (last && inner) || seam;  // others meet it there
       return at(s, t, top(t) + (joins ? 0.0 : bump_at(s, t, bump)));
     };
     const auto keep = [&](int row, int column) {
-      return !is_built(segment.s(row), segment.s(row + 1), side * stations[column],
-                       side * stations[column + 1]);
+      return !is_built(
+          segment.s(row), segment.s(row + 1), side * across[column], side * across[column + 1]);
     };
-    add_sided(segment.cells, static_cast<int>(stations.size()) - 1, side, vertex, surface, keep);
+    add_sided(segment.cells, static_cast<int>(across.size()) - 1, side, vertex, surface, keep);
   }
 
   /// Ground that closes the street beyond the road's end: kerb, pavement, terrain.
   void add_end(double end) {
     const auto face = [&](int row, int column) {
-      const double t = kRoadHalfWidth * (1.0 - 2.0 * row / 16.0);
+      const double t = road_station(kAcrossRoad - row);
       const double h = column == 0 ? scene_.line->ground_height(t) : top(t);
       SceneVertex v = at(end, t, h);
       v.texture = {static_cast<float>(t), static_cast<float>(h), 0.0F};
       return v;
     };
-    scene_.builder->add_grid(
-        16, 1, face, {street_class::kSidewalk, scene_.shared.kerb});
+    scene_.builder->add_grid(kAcrossRoad, 1, face, {street_class::kSidewalk, scene_.shared.kerb});
     add_end_strip(end, end + 2.0, {street_class::kSidewalk, scene_.shared.paving});
     add_end_strip(end + 2.0, end + kEndGround, {street_class::kTerrain, scene_.shared.grass});
   }
@@ -132,20 +184,20 @@ class GroundLayer {
     }
     const auto mirrored = [&](int row, int column) { return vertex(rows - row, column); };
     const auto mirrored_keep = [&](int row, int column) { return keep(rows - row - 1, column); };
-    scene_.builder->add_grid(rows, columns, mirrored, surface,
-                             keep ? SceneBuilder::GridCell(mirrored_keep) : keep);
+    scene_.builder->add_grid(
+        rows, columns, mirrored, surface, keep ? SceneBuilder::GridCell(mirrored_keep) : keep);
   }
 
   void add_end_strip(double begin, double end, const Surface& surface) {
-    constexpr int kAcross = 54;
+    const std::vector<double> across = all_stations();
     const int cells = static_cast<int>(std::ceil((end - begin) / kCell));
     const double bump = surface.label == street_class::kTerrain ? kBump : 0.0;
     const auto vertex = [&](int row, int column) {
       const double s = begin + (end - begin) * row / cells;
-      const double t = kBackdrop * (2.0 * column / kAcross - 1.0);
+      const double t = across[column];
       return at(s, t, top(t) + (row == 0 ? 0.0 : bump_at(s, t, bump)));
     };
-    scene_.builder->add_grid(cells, kAcross, vertex, surface);
+    scene_.builder->add_grid(cells, static_cast<int>(across.size()) - 1, vertex, surface);
   }
 
   const Scene& scene_;
@@ -161,16 +213,11 @@ void add_segment(GroundLayer* layer, const Scene& scene, const Segment& segment,
   for (const int side : {1, -1}) {
     scene.builder->begin_part();
     layer->add_kerb(segment, side);
-    const double strip = kRoadHalfWidth + kKerbWidth;
-    const Surface& strip_surface = random->chance(0.6) ? grass : paving;
-    layer->add_strip(segment, side, {strip, 5.75, 6.15, kStripEnd}, strip_surface);
-    layer->add_strip(segment, side, {kStripEnd, 7.2, 8.0, kPavementEnd}, paving);
+    const Surface& strip = random->chance(0.6) ? grass : paving;
+    layer->add_strip(segment, side, stations(kRoadHalfWidth + kKerbWidth, kStripEnd), strip);
+    layer->add_strip(segment, side, stations(kStripEnd, kPavementEnd), paving);
     scene.builder->begin_part();
-    layer->add_strip(segment,
-                     side,
-                     {kPavementEnd, 9.2, 9.7, 10.3, 11.0, 12.0, 13.0, 14.5, 16.0, 18.0, 20.0, 22.0,
-                      24.0, 26.0, kBackdrop + 1.0},
-                     grass);
+    layer->add_strip(segment, side, stations(kPavementEnd, kStations.back()), grass);
   }
 }
 

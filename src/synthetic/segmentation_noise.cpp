@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "random.h"
 #include <opencv2/imgproc.hpp>
 
 #include "facet_mapping/synthetic/street.h"
-#include "random.h"
 
 namespace facet_mapping {
 namespace {

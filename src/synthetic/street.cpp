@@ -48,8 +48,8 @@ void add_buildings(const Scene& scene, const std::vector<BuildingPlan>& plans, R
     // On the right the facade's x axis runs against the street.
     const double corner = plan.side > 0 ? -0.5 * plan.width() : 0.5 * plan.width();
     const double height = scene.line->ground_height(plan.front);
-    Eigen::Isometry3d frame = scene.line->frame(
-        0.5 * (plan.begin + plan.end), plan.side * plan.front, height);
+    Eigen::Isometry3d frame =
+        scene.line->frame(0.5 * (plan.begin + plan.end), plan.side * plan.front, height);
     frame.translate(Eigen::Vector3d(corner, 0.0, 0.0));
     frame.rotate(Eigen::AngleAxisd(plan.side > 0 ? 0.0 : kPi, Eigen::Vector3d::UnitZ()));
     add_building(scene, frame, plan.width(), plan.depth, random);
@@ -120,8 +120,8 @@ void add_hedges(const Scene& scene, const std::vector<BuildingPlan>& plans, Rand
     const double begin = std::max(plan.begin, scene.line->begin()) + 0.5;
     const double end = std::min(plan.end, scene.line->end() - 1.0) - random->uniform(0.5, 4.0);
     if (end - begin > 2.0) {
-      add_hedge(scene, scene.line->frame(begin, t, scene.line->ground_height(t)), end - begin,
-                random);
+      add_hedge(
+          scene, scene.line->frame(begin, t, scene.line->ground_height(t)), end - begin, random);
     }
   }
 }
@@ -151,30 +151,6 @@ void fill(Street* street) {
 }
 
 }  // namespace
-
-SharedMaterials add_shared_materials(SceneBuilder* builder, Random* random) {
-  const auto add = [&](MaterialKind kind, const Eigen::Vector3f& color,
-                       const Eigen::Vector3f& accent, const Eigen::Vector2f& size) {
-    return builder->add_material({kind, color, accent, size, random->bits32()});
-  };
-  const Eigen::Vector2f one = Eigen::Vector2f::Ones();
-  const Eigen::Vector3f paint(0.62F, 0.62F, 0.58F);
-  const Eigen::Vector3f stone(0.36F, 0.35F, 0.33F);
-  const Eigen::Vector3f slab(0.34F, 0.32F, 0.29F);
-  const Eigen::Vector3f lawn(0.17F, 0.20F, 0.07F);
-  const Eigen::Vector3f soil(0.22F, 0.18F, 0.10F);
-  SharedMaterials shared;
-  shared.asphalt = add(MaterialKind::kAsphalt, {0.17F, 0.17F, 0.175F}, paint,
-                       {static_cast<float>(kRoadHalfWidth), 3.0F});
-  shared.kerb = add(MaterialKind::kKerb, stone, 0.5F * stone, {1.0F, 1.0F});
-  shared.paving = add(MaterialKind::kPaving, slab, 0.4F * slab, {0.5F, 0.5F});
-  shared.grass = add(MaterialKind::kGrass, lawn, soil, one);
-  shared.bark = add(MaterialKind::kBark, {0.17F, 0.13F, 0.09F}, {0.05F, 0.04F, 0.03F}, one);
-  shared.metal = add(MaterialKind::kMetal, {0.33F, 0.34F, 0.35F}, {0.2F, 0.2F, 0.2F}, one);
-  shared.wheel = add(MaterialKind::kWheel, {0.03F, 0.03F, 0.03F}, {0.40F, 0.41F, 0.42F}, one);
-  shared.backdrop = add(MaterialKind::kFoliage, {0.15F, 0.20F, 0.06F}, {0.03F, 0.05F, 0.015F}, one);
-  return shared;
-}
 
 Street make_street(const StreetConfig& config) {
   check(config);

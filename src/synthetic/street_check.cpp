@@ -32,7 +32,7 @@ class Problems {
 
 void check(const StreetConfig& config) {
   Problems problems;
-  problems.require("length_m", config.length_m, 20.0, 20000.0);
+  problems.require("length_m", config.length_m, 20.0, 5000.0);
   problems.require("bend_rad", config.bend_rad, -0.5, 0.5);
   problems.require("bend_period_m", config.bend_period_m, 100.0, 1e6);
   problems.require("crown_m", config.crown_m, 0.0, 0.5);

@@ -7,13 +7,13 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "dataset_files.h"
+#include "random.h"
 #include <tbb/parallel_for.h>
 
-#include "dataset_files.h"
 #include "facet_mapping/io/ply.h"
 #include "facet_mapping/synthetic/segmentation_noise.h"
 #include "facet_mapping/synthetic/street_rig.h"
-#include "random.h"
 
 namespace facet_mapping {
 namespace {
@@ -66,13 +66,16 @@ class FrameWriter {
     files_.write_image("right", frame, right.color);
     files_.write_image("gt_depth", frame, depth_png(left.depth));
     files_.write_image("gt_label", frame, left.labels);
-    files_.write_image(
-        "labels", frame,
-        noisy_segmentation(left.labels, config_.label_noise, derive_seed(seed, 2)));
+    files_.write_image("labels",
+                       frame,
+                       noisy_segmentation(left.labels, config_.label_noise, derive_seed(seed, 2)));
     if (raycaster_) {
       files_.write_scan(frame,
-                        scan_street(street_, *raycaster_, map_from_left * rig_.left_from_velo,
-                                    config_.lidar, derive_seed(seed, 3)));
+                        scan_street(street_,
+                                    *raycaster_,
+                                    map_from_left * rig_.left_from_velo,
+                                    config_.lidar,
+                                    derive_seed(seed, 3)));
     }
   }
 

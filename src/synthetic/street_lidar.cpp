@@ -7,11 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include <tbb/parallel_for.h>
-
 #include "random.h"
 #include "surface_sampler.h"
 #include "texture.h"
+#include <tbb/parallel_for.h>
 
 namespace facet_mapping {
 namespace {
@@ -89,7 +88,9 @@ class Scanner {
   const StreetLidarConfig& config_;
 };
 
-bool in_range(double value, double low, double high) { return value >= low && value <= high; }
+bool in_range(double value, double low, double high) {
+  return value >= low && value <= high;
+}
 
 }  // namespace
 

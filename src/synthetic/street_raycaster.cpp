@@ -17,7 +17,9 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 
-Point to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Point to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
 /// A facet of a mesh that is kept elsewhere: nothing but its index is stored.
 class FacetPrimitive {
@@ -34,7 +36,8 @@ class FacetPrimitive {
   Id id() const { return id_; }
   Datum datum(Shared_data mesh) const {
     const Triangle& t = mesh->triangles[id_];
-    return {to_cgal(mesh->vertices[t[0]]), to_cgal(mesh->vertices[t[1]]),
+    return {to_cgal(mesh->vertices[t[0]]),
+            to_cgal(mesh->vertices[t[1]]),
             to_cgal(mesh->vertices[t[2]])};
   }
   Point reference_point(Shared_data mesh) const {

@@ -21,7 +21,11 @@ StreetRig kitti_rig(bool full_size) {
   rig.camera = {1242, 375, 721.5377, 721.5377, 609.5593, 172.854};
   if (!full_size) {
     // Exactly half, so that pixels stay square; the last row reaches half a pixel further down.
-    rig.camera = {621, 188, 0.5 * 721.5377, 0.5 * 721.5377, 0.5 * (609.5593 + 0.5) - 0.5,
+    rig.camera = {621,
+                  188,
+                  0.5 * 721.5377,
+                  0.5 * 721.5377,
+                  0.5 * (609.5593 + 0.5) - 0.5,
                   0.5 * (172.854 + 0.5) - 0.5};
   }
   rig.baseline_m = 0.54325;

@@ -44,8 +44,7 @@ void append(const Street& street, const StreetPart& part, Selection* selection) 
   const auto first = all.vertices.begin() + part.first_vertex;
   const auto shift =
       static_cast<std::uint32_t>(selection->mesh.vertices.size()) - part.first_vertex;
-  selection->mesh.vertices.insert(
-      selection->mesh.vertices.end(), first, first + part.vertex_count);
+  selection->mesh.vertices.insert(selection->mesh.vertices.end(), first, first + part.vertex_count);
   for (std::uint32_t f = part.first_facet; f < part.first_facet + part.facet_count; ++f) {
     const Triangle& t = all.triangles[f];
     selection->mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});

@@ -74,8 +74,7 @@ cv::Mat develop(const cv::Mat& linear, const SensorNoise& noise) {
     for (int x = 0; x < linear.cols; ++x) {
       for (int c = 0; c < 3; ++c) {
         counter += 0x9E3779B97F4A7C15ULL;
-        const float grey =
-            respond(gain * from[x][2 - c]) + sigma * rough_normal(mix_bits(counter));
+        const float grey = respond(gain * from[x][2 - c]) + sigma * rough_normal(mix_bits(counter));
         to[x][c] = cv::saturate_cast<std::uint8_t>(grey);
       }
     }

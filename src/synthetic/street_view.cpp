@@ -6,14 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <tbb/parallel_for.h>
-
 #include "noise.h"
 #include "street_selection.h"
 #include "street_shading.h"
 #include "sun_shadows.h"
 #include "surface_sampler.h"
 #include "texture.h"
+#include <tbb/parallel_for.h>
 
 namespace facet_mapping {
 namespace {
@@ -97,8 +96,8 @@ cv::Mat class_image(const Street& street, const cv::Mat& facets) {
   for (int y = 0; y < facets.rows; ++y) {
     for (int x = 0; x < facets.cols; ++x) {
       const auto facet = facets.at<std::int32_t>(y, x);
-      const Label label = facet < 0 ? street_class::kSky
-                                    : street.mesh.labels[static_cast<std::size_t>(facet)];
+      const Label label =
+          facet < 0 ? street_class::kSky : street.mesh.labels[static_cast<std::size_t>(facet)];
       labels.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(label);
     }
   }
@@ -131,8 +130,10 @@ struct StreetRenderer::Impl {
   }
 
   /// A pixel of one material takes every second sample, which halves the time of a picture.
-  Eigen::Vector3f pixel_color(const FacetImage& fine, const cv::Rect& pixel, Painter* painter) const {
-    const bool plain = pixel.width > 1 && one_material(fine.facets(pixel));
+  Eigen::Vector3f pixel_color(const FacetImage& fine,
+                              const cv::Rect& pixel,
+                              Painter* painter) const {
+    const bool plain = pixel.width > 1 && one_material(fine.facets, pixel);
     const float footprint = plain ? std::sqrt(2.0F) : 1.0F;
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;
@@ -149,14 +150,20 @@ struct StreetRenderer::Impl {
     return sum / static_cast<float>(count);
   }
 
-  bool one_material(const cv::Mat& facets) const {
+  bool one_material(const cv::Mat& facets, const cv::Rect& pixel) const {
     const auto material = [&](std::int32_t facet) {
       return facet < 0 ? -1 : static_cast<int>(street.material[static_cast<std::size_t>(facet)]);
     };
-    const int first = material(facets.at<std::int32_t>(0, 0));
-    return std::all_of(facets.begin<std::int32_t>(),
-                       facets.end<std::int32_t>(),
-                       [&](std::int32_t facet) { return material(facet) == first; });
+    const int first = material(facets.at<std::int32_t>(pixel.y, pixel.x));
+    for (int y = pixel.y; y < pixel.br().y; ++y) {
+      const auto* row = facets.ptr<std::int32_t>(y);
+      for (int x = pixel.x; x < pixel.br().x; ++x) {
+        if (material(row[x]) != first) {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 };
 
@@ -185,6 +192,8 @@ StreetImage StreetRenderer::render(const View& view, const SensorNoise& noise) c
   return image;
 }
 
-FacetImage StreetRenderer::render_facets(const View& view) const { return impl_->facets(view); }
+FacetImage StreetRenderer::render_facets(const View& view) const {
+  return impl_->facets(view);
+}
 
 }  // namespace facet_mapping

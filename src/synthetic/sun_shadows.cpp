@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "street_selection.h"
+#include <tbb/parallel_for.h>
 
 namespace facet_mapping {
 namespace {
 
-constexpr double kTile = 32.0;          // metres
-constexpr double kPixel = 0.06;         // metres of a shadow map's pixel
-constexpr double kSunDistance = 2000.0; // metres from which a tile is looked at
-constexpr double kBias = 0.06;          // metres, against surfaces shading themselves
-constexpr double kMiddleHeight = 1.5;   // metres in the map, the middle of what receives shadows
-constexpr double kReceivers = 6.5;      // metres above and below it that tiles cover
+constexpr double kTile = 32.0;           // metres
+constexpr double kPixel = 0.06;          // metres of a shadow map's pixel
+constexpr double kSunDistance = 2000.0;  // metres from which a tile is looked at
+constexpr double kBias = 0.06;           // metres, against surfaces shading themselves
+constexpr double kMiddleHeight = 1.5;    // metres in the map, the middle of what receives shadows
+constexpr double kReceivers = 6.5;       // metres above and below it that tiles cover
 
 Eigen::Matrix3d map_from_sun(const Eigen::Vector3d& to_sun) {
   Eigen::Matrix3d axes;
@@ -28,7 +27,9 @@ Eigen::Matrix3d map_from_sun(const Eigen::Vector3d& to_sun) {
 }
 
 /// Half the side of the square that a tile's receivers fill as the sun sees them.
-double half_extent() { return std::hypot(0.5 * std::sqrt(2.0) * kTile, kReceivers); }
+double half_extent() {
+  return std::hypot(0.5 * std::sqrt(2.0) * kTile, kReceivers);
+}
 
 }  // namespace
 
@@ -62,9 +63,8 @@ SunShadows::SunShadows(const Street& street) {
     keys.push_back(key);
   }
   tiles_.resize(keys.size());
-  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t k) {
-    tiles_[k] = make_tile(street, keys[k]);
-  });
+  tbb::parallel_for(
+      std::size_t{0}, keys.size(), [&](std::size_t k) { tiles_[k] = make_tile(street, keys[k]); });
 }
 
 float SunShadows::sunlit(const Eigen::Vector3d& point, const Eigen::Vector3f& normal) const {
@@ -73,8 +73,7 @@ float SunShadows::sunlit(const Eigen::Vector3d& point, const Eigen::Vector3f& no
     return 1.0F;
   }
   const Tile& tile = tiles_[entry->second];
-  const Eigen::Vector3d in_sun =
-      tile.sun_from_map * (point + kBias * normal.cast<double>().eval());
+  const Eigen::Vector3d in_sun = tile.sun_from_map * (point + kBias * normal.cast<double>().eval());
   const Eigen::Vector2d pixel = tile.camera.project(in_sun);
   const int x = static_cast<int>(std::floor(pixel.x()));
   const int y = static_cast<int>(std::floor(pixel.y()));

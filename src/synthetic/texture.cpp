@@ -40,11 +40,23 @@ Eigen::Vector3f reflectance(const Material& material,
     return texture::worn(m, p, footprint_m, 0.10F);
   };
   // In the order of MaterialKind.
-  constexpr Function kTextures[] = {
-      texture::asphalt, texture::kerb, texture::paving,     texture::grass,    texture::brick,
-      texture::plaster, texture::panels, texture::window,   texture::door,     kPlain,
-      texture::roof_tiles, texture::car_body, texture::wheel, kPlain,          texture::sign,
-      texture::bark,    texture::foliage};
+  constexpr Function kTextures[] = {texture::asphalt,
+                                    texture::kerb,
+                                    texture::paving,
+                                    texture::grass,
+                                    texture::brick,
+                                    texture::plaster,
+                                    texture::panels,
+                                    texture::window,
+                                    texture::door,
+                                    kPlain,
+                                    texture::roof_tiles,
+                                    texture::car_body,
+                                    texture::wheel,
+                                    kPlain,
+                                    texture::sign,
+                                    texture::bark,
+                                    texture::foliage};
   return kTextures[static_cast<std::size_t>(material.kind)](material, point, footprint);
 }
 

@@ -73,14 +73,14 @@ Eigen::Vector3f window(const Material& m, const Eigen::Vector3f& p, float footpr
   const Eigen::Vector3f inside(p.x(), p.y(), 3.7F * static_cast<float>(number));
   const float shapes = octave_noise(inside, 0.9F, 3, footprint, m.seed + 7U);
   const float sky = std::clamp(p.y() / m.size.y(), 0.0F, 1.0F);
-  Eigen::Vector3f glass = shaded(m.color + 0.10F * sky * Eigen::Vector3f(0.7F, 0.85F, 1.0F),
-                                 0.6F * shapes);
+  Eigen::Vector3f glass =
+      shaded(m.color + 0.10F * sky * Eigen::Vector3f(0.7F, 0.85F, 1.0F), 0.6F * shapes);
   if (kind < 0.55F) {  // curtains cover a part of the pane
     const float open = 0.12F + 0.3F * cell_hash(number, 2, m.seed);
     const float away = std::abs(p.x() / m.size.x() - 0.5F);
     const float curtain = std::clamp((away - open) * m.size.x() / footprint + 0.5F, 0.0F, 1.0F);
-    const float folds = octave_noise({6.0F * p.x(), 0.3F * p.y(), inside.z()}, 1.0F, 3,
-                                     6.0F * footprint, m.seed + 9U);
+    const float folds = octave_noise(
+        {6.0F * p.x(), 0.3F * p.y(), inside.z()}, 1.0F, 3, 6.0F * footprint, m.seed + 9U);
     glass = blend(glass, shaded(Eigen::Vector3f(0.50F, 0.47F, 0.42F), 0.35F * folds), curtain);
   } else if (kind < 0.75F) {  // a blind, let down
     const float low = m.size.y() * (0.2F + 0.6F * cell_hash(number, 3, m.seed));

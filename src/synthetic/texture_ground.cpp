@@ -10,8 +10,8 @@ namespace facet_mapping::texture {
 namespace {
 
 /// Thin dark lines where a slowly varying noise crosses zero: cracks and tar seams.
-float crack(const Eigen::Vector3f& p, float frequency, float width, float footprint,
-            std::uint32_t seed) {
+float crack(
+    const Eigen::Vector3f& p, float frequency, float width, float footprint, std::uint32_t seed) {
   const float field = octave_noise(frequency * p, 1.0F, 2, frequency * footprint, seed);
   const float distance = std::abs(field) / (1.5F * frequency);  // metres, roughly
   const float blur = std::max(width, footprint);
@@ -61,8 +61,9 @@ Eigen::Vector3f paving(const Material& m, const Eigen::Vector3f& p, float footpr
   const auto column = static_cast<std::int32_t>(std::floor(shifted / m.size.x()));
   const float seen = visible_share(0.5F * m.size.x(), footprint);
   const float slab = cell_hash(column, static_cast<std::int32_t>(row), m.seed) - 0.5F;
-  const float joint = std::min(1.0F, stripe_coverage(shifted, m.size.x(), 0.015F, footprint) +
-                                         stripe_coverage(p.y(), m.size.y(), 0.015F, footprint));
+  const float joint = std::min(1.0F,
+                               stripe_coverage(shifted, m.size.x(), 0.015F, footprint) +
+                                   stripe_coverage(p.y(), m.size.y(), 0.015F, footprint));
   const float wear = octave_noise(p, 0.4F, 8, footprint, m.seed);
   return blend(shaded(m.color, 0.45F * seen * slab + 0.13F * wear), m.accent, joint);
 }

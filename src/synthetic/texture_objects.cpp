@@ -114,9 +114,9 @@ Eigen::Vector3f car_body(const Material& m, const Eigen::Vector3f& p, float foot
   Eigen::Vector3f color = shaded(m.color, 0.06F * broad + (0.03F + 0.10F * low) * dust);
   color = blend(color, Eigen::Vector3f(0.16F, 0.14F, 0.11F), 0.35F * low);
   const float sky = std::clamp((p.z() - kBelt) / 0.5F, 0.0F, 1.0F);
-  const Eigen::Vector3f glass = shaded(Eigen::Vector3f(0.035F, 0.04F, 0.045F) +
-                                           0.07F * sky * Eigen::Vector3f(0.8F, 0.9F, 1.0F),
-                                       0.5F * octave_noise(p, 1.3F, 3, footprint, m.seed + 5U));
+  const Eigen::Vector3f glass = shaded(
+      Eigen::Vector3f(0.035F, 0.04F, 0.045F) + 0.07F * sky * Eigen::Vector3f(0.8F, 0.9F, 1.0F),
+      0.5F * octave_noise(p, 1.3F, 3, footprint, m.seed + 5U));
   color = blend(color, glass, std::min(1.0F, glass_share(p, footprint)));
   const Eigen::Vector3f black = Eigen::Vector3f::Constant(0.02F);
   color = blend(color, black, 0.8F * gap_share(p, footprint));

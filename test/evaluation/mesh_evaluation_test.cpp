@@ -91,7 +91,16 @@ TEST_F(MeshEvaluationTest, WhatTheMeshDoesNotCoverIsMissing) {
   EXPECT_DOUBLE_EQ(evaluation.depth.completeness, 3.0 / 5.0);
   EXPECT_NEAR(evaluation.depth.mae_m, 0.0, 1e-6);
   EXPECT_DOUBLE_EQ(evaluation.labels.accuracy, 8.0 / 10.0);
-  EXPECT_EQ(evaluation.labels.predicted_pixels, 32U);
+  EXPECT_EQ(evaluation.labels.predicted_pixels, 40U);
+  EXPECT_EQ(evaluate_mesh(mesh, LabelSet(), dataset_).labels.predicted_pixels, 32U);
+}
+
+TEST_F(MeshEvaluationTest, AnOpenViewShowsSky) {
+  cv::imwrite(dataset_.frames[0].gt_labels, cv::Mat(8, 10, CV_8U, cv::Scalar(10)));
+  TriangleMesh mesh;
+  add_wall(2.0, -0.6, 20, 2, mesh);
+  EXPECT_DOUBLE_EQ(evaluate_mesh(mesh, labels_, dataset_).labels.accuracy, 0.2);
+  EXPECT_DOUBLE_EQ(evaluate_mesh(mesh, LabelSet(), dataset_).labels.accuracy, 0.0);
 }
 
 TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
@@ -101,12 +110,28 @@ TEST_F(MeshEvaluationTest, UnlabelledAndSkyFacetsCanBeHidden) {
   add_wall(1.25, -20, 20, 10, mesh);
   EvaluationOptions options;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.75, 1e-6);
-  options.hide_sky = true;
+  options.hidden.sky = true;
   EXPECT_NEAR(evaluate_mesh(mesh, labels_, dataset_, options).depth.mae_m, 0.5, 1e-6);
-  options.hide_unlabelled = true;
+  options.hidden.unlabelled = true;
   const MeshEvaluation evaluation = evaluate_mesh(mesh, labels_, dataset_, options);
   EXPECT_NEAR(evaluation.depth.mae_m, 0.0, 1e-6);
   EXPECT_EQ(evaluation.facets, 2U);
+}
+
+TEST_F(MeshEvaluationTest, GapsAreHiddenUnlessAskedFor) {
+  TriangleMesh mesh;
+  add_wall(2.0, -20, 20, 2, mesh);
+  add_wall(1.5, -20, 20, 2, mesh);
+  mesh.views = {4, 4, 0, 0};
+  Hidden hidden;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).views, (std::vector<std::uint16_t>{4, 4}));
+  hidden.gaps = false;
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
+  hidden.gaps = hidden.unlabelled = hidden.sky = true;
+  mesh.labels.clear();  // without labels nothing is unlabelled
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 2U);
+  mesh.views.clear();
+  EXPECT_EQ(shown_facets(mesh, labels_, hidden).triangles.size(), 4U);
 }
 
 TEST_F(MeshEvaluationTest, GroundTruthOfAnotherSizeIsComparedAtItsOwn) {

@@ -115,7 +115,7 @@ MeshFile read_content(const std::string& content) {
 
 TEST(Ply, RoundTripLosesNothing) {
   const TempFolder folder;
-  for (unsigned seed = 0; seed < 20; ++seed) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
     const MeshFile written = random_mesh(seed, seed % 2 == 0);
     write_ply(folder / "mesh.ply", written);
     expect_equal(read_ply(folder / "mesh.ply"), written);
@@ -171,7 +171,7 @@ TEST(Ply, DamagedBytesNeverCrash) {
   const std::string whole = read_text(folder / "mesh.ply");
   std::mt19937 random(7);
   int refused = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 400; ++round) {
     std::string damaged = whole;
     for (int k = 0; k < 3; ++k) {
       damaged[random() % (round % 2 == 0 ? 800 : whole.size())] = static_cast<char>(random());
@@ -184,8 +184,8 @@ TEST(Ply, DamagedBytesNeverCrash) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 500);
-  EXPECT_LT(refused, 2000);
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, 400);
 }
 
 TEST(Ply, ReadsAsciiWithUnknownPropertiesAndQuads) {

@@ -37,8 +37,9 @@ class BadInputTest : public testing::Test {
     tf_ = std::make_unique<tf2_ros::TransformBroadcaster>();
     cloud_pub_ = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>("cloud", 10);
     // stereo_points is lazy: without this it would only count the pairs.
-    points_sub_ = ros::NodeHandle().subscribe<sensor_msgs::PointCloud2>(
-        "points", 10, [](const sensor_msgs::PointCloud2ConstPtr&) {});
+    const boost::function<void(const sensor_msgs::PointCloud2ConstPtr&)> ignore = [](const auto&) {
+    };
+    points_sub_ = ros::NodeHandle().subscribe<sensor_msgs::PointCloud2>("points", 10, ignore);
     ASSERT_TRUE(
         wait_until([] { return car_->is_connected() && cloud_pub_.getNumSubscribers() > 0; }));
     wait_until([] { return false; }, 0.5);  // stereo_points must know its subscriber

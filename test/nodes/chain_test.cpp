@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Images in, refined labelled mesh file out: stereo_points, mapper and refiner together.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <set>
 
 #include "corridor.h"
@@ -208,6 +210,28 @@ TEST_F(ChainTest, RelabelKeepsTheGeometry) {
   const TriangleMesh mesh = mesh_from_message(call<GetMesh>("refiner/get_mesh").mesh);
   EXPECT_EQ(classes_of(mesh).count(kRoad), 1U);
   EXPECT_TRUE(check_manifold(mesh).is_closed_manifold());
+}
+
+// Last, since it ends the refiner.
+TEST_F(ChainTest, ShutdownDoesNotWaitForARunningJob) {
+  const LastMessage<RefineProgress> progress("refiner/progress");
+  Refine::Request request;
+  request.iterations = 1000;
+  request.levels = 1;
+  auto answered = std::async(std::launch::async, [request] {
+    Refine service;
+    service.request = request;
+    ros::service::call("refiner/refine", service);
+  });
+  ASSERT_TRUE(progress.wait());
+  ASSERT_EQ(std::system("rosnode kill /refiner > /dev/null"), 0);
+  EXPECT_EQ(answered.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  EXPECT_TRUE(wait_until([] { return !ros::service::exists("refiner/refine", false); }));
+  std::vector<std::string> nodes;
+  EXPECT_TRUE(wait_until([&] {
+    ros::master::getNodes(nodes);
+    return std::find(nodes.begin(), nodes.end(), "/refiner") == nodes.end();
+  }));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ import rostest
 
 PACKAGE = "facet_mapping"
 NODES = ["stereo_points", "mapper", "refiner"]
+NODELETS = {"stereo_points": "StereoPoints", "mapper": "Mapper", "refiner": "Refiner"}
 # Far more than a node needs, so that a slow machine does not fail the test.
 TIMEOUT_S = 30
 
@@ -67,7 +68,7 @@ class LifecycleTest(unittest.TestCase):
 
     def test_nodelets_load_into_one_manager(self):
         commands = [["manager", "__name:=manager"]]
-        commands += [["load", "%s/%s" % (PACKAGE, node), "manager", "__name:=let_" + node]
+        commands += [["load", "%s/%s" % (PACKAGE, NODELETS[node]), "manager", "__name:=let_" + node]
                      for node in NODES]
         nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
         processes = [subprocess.Popen([nodelet] + c, stdout=subprocess.DEVNULL) for c in commands]
@@ -91,12 +92,12 @@ class LifecycleTest(unittest.TestCase):
         nodelet = roslib.packages.find_node("nodelet", "nodelet")[0]
         manager = subprocess.Popen([nodelet, "manager", "__name:=other_manager"],
                                    stdout=subprocess.DEVNULL)
-        load = subprocess.Popen([nodelet, "load", PACKAGE + "/mapper", "other_manager",
+        load = subprocess.Popen([nodelet, "load", PACKAGE + "/Mapper", "other_manager",
                                  "__name:=let_bad"], stdout=subprocess.DEVNULL)
         good = None
         try:
             wait_for_service("/other_manager/list")
-            good = subprocess.Popen([nodelet, "load", PACKAGE + "/mapper", "other_manager",
+            good = subprocess.Popen([nodelet, "load", PACKAGE + "/Mapper", "other_manager",
                                      "__name:=let_good"], stdout=subprocess.DEVNULL)
             wait_for_service("/let_good/get_mesh")
             self.assertIsNone(manager.poll())

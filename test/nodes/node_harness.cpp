@@ -4,6 +4,7 @@
 
 #include "corridor.h"
 #include <cv_bridge/cv_bridge.h>
+#include <ros/callback_queue.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "facet_mapping/ros/cloud_conversions.h"

@@ -29,7 +29,7 @@ TEST_F(FilePathsTest, HomeAndRelativePathsAreExpanded) {
 }
 
 TEST_F(FilePathsTest, ExtensionIsAdded) {
-  EXPECT_EQ(mesh_path("/tmp/street"), "/tmp/street.ply");
+  EXPECT_EQ(mesh_path("/no/folder/street"), "/no/folder/street.ply");
   EXPECT_EQ(mesh_path("/tmp/v1.2/street"), "/tmp/v1.2/street.ply");
 }
 

@@ -21,8 +21,8 @@ PointFrame wall_seen_from(double x) {
     for (int j = -8; j <= 8; ++j) {
       LabeledPoint point;
       // A little depth, so that the triangulation is in general position.
-      point.position = {0.5F * static_cast<float>(i),
-                        0.5F * static_cast<float>(j),
+      point.position = {0.3F * static_cast<float>(i),
+                        0.3F * static_cast<float>(j),
                         6.0F + 0.01F * static_cast<float>((i * 7 + j * 3) % 5)};
       point.label = 1;
       frame.points.push_back(point);
@@ -37,9 +37,11 @@ class MapWorkerTest : public testing::Test {
     return std::make_unique<MapWorker>(
         LabelSet({{1, "wall", {70, 70, 70}}}),
         MapConfig(),
+        CloudConfig(),
         queue_size,
         period_s,
         MapWorker::Callbacks{[this](const FrameReport& report) { reports_.push_back(report); },
+                             [this](const CloudReport& report) { scans_.push_back(report); },
                              [this](MapUpdate update) { push(std::move(update)); },
                              [this](const std::string& error) { errors_.push_back(error); }});
   }
@@ -60,13 +62,14 @@ class MapWorkerTest : public testing::Test {
   std::condition_variable changed_;
   std::vector<MapUpdate> updates_;
   std::vector<FrameReport> reports_;
+  std::vector<CloudReport> scans_;
   std::vector<std::string> errors_;
 };
 
 TEST_F(MapWorkerTest, FramesBecomeAClosedLabelledSurface) {
   const auto worker = make_worker(10, 0.0);
-  EXPECT_TRUE(worker->push(wall_seen_from(0.0), "a"));
-  EXPECT_TRUE(worker->push(wall_seen_from(1.0), "a"));
+  EXPECT_TRUE(worker->push(wall_seen_from(0.0), "a", false));
+  EXPECT_TRUE(worker->push(wall_seen_from(1.0), "a", false));
   MapUpdate update = wait_for_update(1);
   if (update.keyframes < 2) {
     update = wait_for_update(2);
@@ -79,28 +82,40 @@ TEST_F(MapWorkerTest, FramesBecomeAClosedLabelledSurface) {
   EXPECT_EQ(reports_.size(), 2U);
 }
 
+TEST_F(MapWorkerTest, ScansAreCleanedFirst) {
+  const auto worker = make_worker(10, 0.0);
+  PointFrame scan = wall_seen_from(0.0);
+  scan.points.push_back({Eigen::Vector3f(0.0F, 0.0F, 20.0F), kUnlabelled, 0.0F});  // a raindrop
+  worker->push(scan, "lidar", true);
+  wait_for_update(1);
+  worker->stop();
+  ASSERT_EQ(scans_.size(), 1U);
+  EXPECT_EQ(scans_[0].isolated, 1U);
+  EXPECT_EQ(reports_[0].used, scan.points.size() - 1);
+}
+
 TEST_F(MapWorkerTest, FullQueueRefuses) {
   const auto worker = make_worker(2, 1000.0);
-  worker->push(wall_seen_from(0.0), "a");
+  worker->push(wall_seen_from(0.0), "a", false);
   wait_for_update(1);
   while (worker->size() > 0) {
     std::this_thread::yield();
   }
   // From now on the worker pauses.
-  EXPECT_TRUE(worker->push(wall_seen_from(1.0), "a"));
-  EXPECT_TRUE(worker->push(wall_seen_from(2.0), "a"));
-  EXPECT_FALSE(worker->push(wall_seen_from(3.0), "a"));
+  EXPECT_TRUE(worker->push(wall_seen_from(1.0), "a", false));
+  EXPECT_TRUE(worker->push(wall_seen_from(2.0), "a", false));
+  EXPECT_FALSE(worker->push(wall_seen_from(3.0), "a", false));
   EXPECT_EQ(worker->size(), 2U);
 }
 
 TEST_F(MapWorkerTest, ResetForgetsMapAndQueue) {
   const auto worker = make_worker(10, 0.0);
-  worker->push(wall_seen_from(0.0), "a");
+  worker->push(wall_seen_from(0.0), "a", false);
   wait_for_update(1);
   bool told = false;
   worker->reset([&told] { told = true; });
   EXPECT_TRUE(told);
-  worker->push(wall_seen_from(5.0), "a");
+  worker->push(wall_seen_from(5.0), "a", false);
   EXPECT_EQ(wait_for_update(2).keyframes, 1U);
 }
 
@@ -108,8 +123,8 @@ TEST_F(MapWorkerTest, BadPoseIsReportedAndTheWorkerLives) {
   const auto worker = make_worker(10, 0.0);
   PointFrame bad = wall_seen_from(0.0);
   bad.world_from_sensor.translation().x() = NAN;
-  worker->push(bad, "a");
-  worker->push(wall_seen_from(1.0), "a");
+  worker->push(bad, "a", false);
+  worker->push(wall_seen_from(1.0), "a", false);
   EXPECT_EQ(wait_for_update(1).keyframes, 1U);
   worker->stop();
   EXPECT_EQ(errors_.size(), 1U);
@@ -117,11 +132,11 @@ TEST_F(MapWorkerTest, BadPoseIsReportedAndTheWorkerLives) {
 
 TEST_F(MapWorkerTest, StopInThePauseReturnsAtOnce) {
   const auto worker = make_worker(10, 1000.0);
-  worker->push(wall_seen_from(0.0), "a");
+  worker->push(wall_seen_from(0.0), "a", false);
   wait_for_update(1);
-  worker->push(wall_seen_from(1.0), "a");
+  worker->push(wall_seen_from(1.0), "a", false);
   worker->stop();
-  EXPECT_FALSE(worker->push(wall_seen_from(2.0), "a"));
+  EXPECT_FALSE(worker->push(wall_seen_from(2.0), "a", false));
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(ChunkMessage, ContradictionsAreRefused) {
   chunks.update(labelled_sphere());
   const LabeledMeshChunk good = chunk_to_message(chunks.chunks().begin()->second);
   LabeledMeshChunk bad = good;
-  bad.labels.pop_back();
+  bad.labels.push_back(0);
   EXPECT_THROW(chunk_from_message(bad), std::invalid_argument);
   bad = good;
   bad.triangles[0] = static_cast<std::uint32_t>(bad.vertices.size());
@@ -91,7 +91,7 @@ TEST(ChunkMessage, ContradictionsAreRefused) {
   bad.triangles.pop_back();
   EXPECT_THROW(chunk_from_message(bad), std::invalid_argument);
   bad = good;
-  bad.vertex_ids.pop_back();
+  bad.vertex_ids.push_back(0);
   EXPECT_THROW(chunk_from_message(bad), std::invalid_argument);
 }
 
@@ -153,7 +153,7 @@ TEST(MeshReceiver, BadMessageLeavesTheStateAlone) {
   MeshReceiver receiver;
   receiver.apply(full_message(chunks, 1));
   LabeledMesh bad = full_message(chunks, 2);
-  bad.chunks.back().labels.pop_back();
+  bad.chunks.back().labels.push_back(0);
   EXPECT_THROW(receiver.apply(bad), std::invalid_argument);
   EXPECT_EQ(receiver.sequence(), 1U);
   EXPECT_FALSE(receiver.mesh().empty());

@@ -168,22 +168,19 @@ std::string assign_node(const YAML::Node& values) {
   return text;
 }
 
-TEST(NodeParameters, ShippedFilesAreAccepted) {
-  EXPECT_EQ(
-      assign_node<StereoPointsNodeConfig>(YAML::LoadFile(config_folder() + "stereo_points.yaml")),
-      "");
-  EXPECT_EQ(assign_node<MapperNodeConfig>(YAML::LoadFile(config_folder() + "mapper.yaml")), "");
-  EXPECT_EQ(assign_node<RefinerNodeConfig>(YAML::LoadFile(config_folder() + "refiner.yaml")), "");
+template <typename NodeConfig>
+void expect_defaults(const std::string& file) {
+  NodeConfig config;
+  const ParameterTable table = parameter_table(&config);
+  const std::string defaults = table.to_text();
+  EXPECT_TRUE(table.assign(values_of(YAML::LoadFile(config_folder() + file))).empty());
+  EXPECT_EQ(table.to_text(), defaults) << file;
 }
 
 TEST(NodeParameters, ShippedFilesStateTheDefaults) {
-  MapperNodeConfig config;
-  const MapperNodeConfig defaults;
-  ASSERT_TRUE(parameter_table(&config)
-                  .assign(values_of(YAML::LoadFile(config_folder() + "mapper.yaml")))
-                  .empty());
-  EXPECT_EQ(parameter_table(&config).to_text(),
-            parameter_table(const_cast<MapperNodeConfig*>(&defaults)).to_text());
+  expect_defaults<StereoPointsNodeConfig>("stereo_points.yaml");
+  expect_defaults<MapperNodeConfig>("mapper.yaml");
+  expect_defaults<RefinerNodeConfig>("refiner.yaml");
 }
 
 TEST(NodeParameters, DatasetOverlaysAreAccepted) {

@@ -17,6 +17,13 @@
 
 namespace facet_mapping {
 
+/// Which facets are taken away before rendering, so that what is behind them is seen.
+struct Hidden {
+  bool gaps = true;         ///< facets that only close the surface (see is_gap)
+  bool unlabelled = false;  ///< facets without a class, in a mesh that has classes
+  bool sky = false;         ///< facets of classes marked `sky`
+};
+
 struct EvaluationOptions {
   /// Frame indices to look at; empty = every frame.
   std::vector<std::size_t> views;
@@ -24,10 +31,7 @@ struct EvaluationOptions {
   ScanDepthOptions scan;
   /// Classes with more ground-truth pixels than this enter the label means.
   std::size_t min_class_pixels = 100;
-  /// Facets without a class are taken away before rendering, so that what is behind them is seen.
-  bool hide_unlabelled = false;
-  /// Facets of classes marked `sky` are taken away before rendering.
-  bool hide_sky = false;
+  Hidden hidden;
 };
 
 struct ViewScores {
@@ -59,7 +63,8 @@ using EvaluationProgress = std::function<void(std::size_t done, std::size_t tota
 
 /// Compares the mesh rendered in each view with the frame's depth image, or its scan where there is
 /// no depth image, and with its ground-truth labels. Ground truth of another resolution than the
-/// camera's is compared at its own. Throws std::invalid_argument on views that are not there,
+/// camera's is compared at its own. Where the mesh is not seen it shows the class marked `sky`, if
+/// `labels` has one, else no class. Throws std::invalid_argument on views that are not there,
 /// std::runtime_error on broken files or if no view has any ground truth.
 MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const LabelSet& labels,
@@ -67,11 +72,8 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const EvaluationOptions& options = {},
                              const EvaluationProgress& progress = {});
 
-/// The mesh without unlabelled and/or sky facets.
-TriangleMesh shown_facets(const TriangleMesh& mesh,
-                          const LabelSet& labels,
-                          bool hide_unlabelled,
-                          bool hide_sky);
+/// The mesh without the hidden facets.
+TriangleMesh shown_facets(const TriangleMesh& mesh, const LabelSet& labels, const Hidden& hidden);
 
 /// Facets and area per class, ascending ids; empty for a mesh without labels.
 std::vector<ClassArea> class_areas(const TriangleMesh& mesh);

@@ -22,9 +22,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;  ///< map frame, metres
   std::vector<Triangle> triangles;
-  std::vector<Label> labels;         ///< class per facet, kUnlabelled where none is known
-  std::vector<float> confidence;     ///< margin between the best and the second class, 0..1
-  std::vector<std::uint16_t> views;  ///< number of images that see the facet
+  std::vector<Label> labels;      ///< class per facet, kUnlabelled where none is known
+  std::vector<float> confidence;  ///< margin between the best and the second class, 0..1
+  /// Number of images (or rays, before any image was looked at) that see the facet. 0 says that it
+  /// only closes the surface through space that nobody saw: see is_gap.
+  std::vector<std::uint16_t> views;
 
   bool empty() const { return triangles.empty(); }
 };
@@ -32,6 +34,12 @@ struct TriangleMesh {
 /// Throws std::invalid_argument naming the first attribute of wrong length, index out of range or
 /// vertex that is not finite.
 void validate(const TriangleMesh& mesh);
+
+/// True if the facet only closes the surface: it is no evidence of matter, and images look through
+/// it.
+inline bool is_gap(const TriangleMesh& mesh, std::size_t facet) {
+  return !mesh.views.empty() && mesh.views[facet] == 0;
+}
 
 /// (b - a) x (c - a): normal times twice the area, pointing to free space.
 Eigen::Vector3d facet_cross(const TriangleMesh& mesh, std::size_t facet);

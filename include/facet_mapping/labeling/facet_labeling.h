@@ -50,6 +50,7 @@ struct LabelingResult {
 };
 
 /// `renderings[k]` is the mesh rendered in `views[k]`. Views without a segmentation are ignored.
+/// Gaps of the mesh (see is_gap) stay unlabelled; render the views without them (ObservedMesh).
 /// Void pixels (kUnlabelled and excluded labels) do not count as seeing. The result does not depend
 /// on the number of threads nor on how the classes are numbered.
 /// Throws std::invalid_argument on sizes or types that do not match, an invalid mesh or camera, or
@@ -58,5 +59,9 @@ LabelingResult label_facets(const TriangleMesh& mesh,
                             const std::vector<LabeledView>& views,
                             const std::vector<FacetImage>& renderings,
                             const LabelingConfig& config);
+
+/// Writes labels, confidence and view counts into the mesh that was labelled. A facet that was no
+/// gap before does not become one (see is_gap) because no image of this set sees it.
+void apply_labeling(const LabelingResult& labeling, TriangleMesh* mesh);
 
 }  // namespace facet_mapping

@@ -49,6 +49,9 @@ class LabelSet {
   /// The class with this colour or alias, nullptr if there is none.
   const ClassInfo* find_color(const Rgb& color) const;
 
+  /// Ids of the classes that are no surface (sky), ascending.
+  std::vector<Label> sky_ids() const;
+
   /// The class's name, "unlabelled" or "class N" for ids that are not configured.
   std::string name_of(Label id) const;
   Rgb color_of(Label id) const;

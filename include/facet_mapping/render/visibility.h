@@ -16,8 +16,8 @@ namespace facet_mapping {
 class VisibilityTest {
  public:
   /// `depth`: FacetImage::depth rendered in `view` (shared, not copied).
-  /// Throws std::invalid_argument if it is not CV_32FC1 of the camera's size, the camera or the pose
-  /// is invalid, or the tolerance is negative or not finite.
+  /// Throws std::invalid_argument if it is not CV_32FC1 of the camera's size, the camera or the
+  /// pose is invalid, or the tolerance is negative or not finite.
   VisibilityTest(const View& view, const cv::Mat& depth, double relative_tolerance);
 
   /// The pixel nearest to the projection of `point` (map frame, metres), if the point lies in front

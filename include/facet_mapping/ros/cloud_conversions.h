@@ -20,6 +20,9 @@ namespace facet_mapping {
 /// buffer does not fit its description.
 std::vector<LabeledPoint> points_from_cloud(const sensor_msgs::PointCloud2& cloud);
 
+/// True if the cloud says of its points what they are.
+bool has_label_field(const sensor_msgs::PointCloud2& cloud);
+
 /// x y z float32, label uint16, sigma float32, in the sensor's frame.
 sensor_msgs::PointCloud2 cloud_from_points(const std::vector<LabeledPoint>& points,
                                            const std_msgs::Header& header);

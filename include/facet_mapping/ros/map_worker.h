@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "facet_mapping/mapping/labeled_map.h"
+#include "facet_mapping/points/lidar_points.h"
 
 namespace facet_mapping {
 
@@ -31,6 +32,7 @@ class MapWorker {
  public:
   struct Callbacks {
     std::function<void(const FrameReport&)> on_frame;
+    std::function<void(const CloudReport&)> on_cloud;  ///< after cleaning a scan
     std::function<void(MapUpdate)> on_update;
     std::function<void(const std::string&)> on_error;
   };
@@ -39,6 +41,7 @@ class MapWorker {
   /// worker's thread.
   MapWorker(LabelSet labels,
             const MapConfig& config,
+            const CloudConfig& cloud,
             std::size_t queue_size,
             double update_period_s,
             Callbacks callbacks);
@@ -46,8 +49,8 @@ class MapWorker {
   MapWorker(const MapWorker&) = delete;
   MapWorker& operator=(const MapWorker&) = delete;
 
-  /// False if the queue is full: the frame is lost.
-  bool push(PointFrame frame, std::string sensor);
+  /// False if the queue is full: the frame is lost. A scan is cleaned and thinned first.
+  bool push(PointFrame frame, std::string sensor, bool is_scan);
   /// Forgets the map and what waits, and runs `on_reset`; no update of the old map is handed out
   /// afterwards.
   void reset(const std::function<void()>& on_reset);
@@ -60,13 +63,16 @@ class MapWorker {
   struct Item {
     PointFrame frame;
     std::string sensor;
+    bool is_scan = false;
   };
 
   void run();
   bool wait_for_frames(std::deque<Item>* frames, std::uint64_t* epoch);
-  void integrate(const std::deque<Item>& frames, std::uint64_t epoch);
-  bool add_frames(const std::deque<Item>& frames);
+  void integrate(std::deque<Item>* frames, std::uint64_t epoch);
+  bool add_frames(std::deque<Item>* frames);
+  void clean_scan(PointFrame* frame);
 
+  CloudConfig cloud_;
   std::size_t queue_size_;
   std::chrono::duration<double> update_period_;
   Callbacks callbacks_;

@@ -39,15 +39,13 @@ class MapperNode {
  private:
   void receive(const std::string& topic, const sensor_msgs::PointCloud2ConstPtr& cloud);
   void check_time(const std::string& topic, const ros::Time& stamp);
-  void enqueue(const std::string& topic,
-               const std_msgs::Header& header,
-               std::vector<LabeledPoint> points,
-               const Eigen::Isometry3d& map_from_sensor);
+  void enqueue(const std::string& topic, bool is_scan, PointFrame frame);
   void forget_everything();
   bool reset(Reset::Request& request, Reset::Response& response);
   void publish_stats();
   // In the worker's thread:
   void note_frame(const FrameReport& report);
+  void note_cloud(const CloudReport& report);
   void publish_update(MapUpdate update);
 
   Config config_;

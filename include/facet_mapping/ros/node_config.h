@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "facet_mapping/mapping/labeled_map.h"
+#include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/stereo_points.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/ros/parameters.h"
@@ -57,6 +58,7 @@ struct MapperNodeConfig {
   int queue_size = 500;          ///< frames that may wait for the map
   double update_period_s = 1.0;  ///< least time between two updates, wall time
   MapConfig map;
+  CloudConfig cloud;  ///< cleaning of clouds without `label` (LiDAR); its range is that of the map
 };
 
 struct RefinerNodeConfig {

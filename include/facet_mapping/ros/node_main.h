@@ -51,7 +51,9 @@ int run_node(int argc, char** argv, const std::string& name) {
   try {
     node = std::make_unique<Node>(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const std::exception& e) {
-    ROS_FATAL("%s", e.what());
+    // Not ROS_FATAL: the process may end before its console has written anything.
+    std::cerr << e.what() << std::endl;
+    ros::shutdown();
     return 1;
   }
   spin_until_shutdown();

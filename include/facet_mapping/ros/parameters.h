@@ -24,6 +24,9 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Stands for "above 0" as a lower limit.
+constexpr double kSmallestPositive = 1e-9;
+
 /// Inclusive limits of a number.
 struct Limits {
   double min = -std::numeric_limits<double>::infinity();

@@ -34,7 +34,7 @@ constexpr Label kCar = 13;
 }  // namespace street_class
 
 struct StreetConfig {
-  double length_m = 60.0;         ///< along the street, first camera to the road's end; 20 .. 20000
+  double length_m = 60.0;         ///< along the street, first camera to the road's end; 20 .. 5000
   std::uint64_t seed = 1;         ///< everything random follows from it
   double bend_rad = 0.0;          ///< largest heading of the S-curve; 0 = straight, at most 0.5
   double bend_period_m = 240.0;   ///< length of one S; at least 100
@@ -69,13 +69,13 @@ struct StreetPart {
 
 struct Street {
   StreetConfig config;
-  TriangleMesh mesh;                         ///< map frame, every facet labelled
-  std::vector<StreetPose> trajectory;        ///< the first pose is the map's origin, level
-  std::vector<StreetPart> parts;             ///< covers all facets, in order
-  std::vector<Material> materials;           ///<
-  std::vector<std::uint16_t> material;       ///< per facet: index into `materials`
-  std::vector<Eigen::Vector3f> texture;      ///< per vertex: texture coordinates, metres
-  std::vector<Eigen::Vector3f> normals;      ///< per vertex: unit, smooth within a surface
+  TriangleMesh mesh;                                  ///< map frame, every facet labelled
+  std::vector<StreetPose> trajectory;                 ///< the first pose is the map's origin, level
+  std::vector<StreetPart> parts;                      ///< covers all facets, in order
+  std::vector<Material> materials;                    ///< what the facets look like
+  std::vector<std::uint16_t> material;                ///< per facet: index into `materials`
+  std::vector<Eigen::Vector3f> texture;               ///< per vertex: texture coordinates, metres
+  std::vector<Eigen::Vector3f> normals;               ///< per vertex: unit, smooth within a surface
   Eigen::Vector3d to_sun = Eigen::Vector3d::UnitZ();  ///< unit, map frame
 };
 

@@ -16,14 +16,14 @@
 namespace facet_mapping {
 
 struct StreetDatasetConfig {
-  bool full_size = false;     ///< 1242 x 375 pixels instead of 621 x 188
-  double label_noise = 0.7;   ///< level of noisy_segmentation; 0 = labels/ equals gt_label/
-  double gain_sigma = 0.02;   ///< standard deviation of each image's exposure, share
-  double grey_sigma = 1.5;    ///< standard deviation of the pixel noise, grey levels
-  bool scans = true;          ///< write velodyne/
-  std::uint64_t seed = 1;     ///< of the noise; the street has a seed of its own
-  StreetViewConfig view;      ///< how the pictures are made
-  StreetLidarConfig lidar;    ///< how the scans are made
+  bool full_size = false;    ///< 1242 x 375 pixels instead of 621 x 188
+  double label_noise = 0.7;  ///< level of noisy_segmentation; 0 = labels/ equals gt_label/
+  double gain_sigma = 0.02;  ///< standard deviation of each image's exposure, share
+  double grey_sigma = 1.5;   ///< standard deviation of the pixel noise, grey levels
+  bool scans = true;         ///< write velodyne/
+  std::uint64_t seed = 1;    ///< of the noise; the street has a seed of its own
+  StreetViewConfig view;     ///< how the pictures are made
+  StreetLidarConfig lidar;   ///< how the scans are made
 };
 
 /// Frames done and frames in all; called from one thread at a time, not always the same.

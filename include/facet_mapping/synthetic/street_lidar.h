@@ -14,15 +14,15 @@
 namespace facet_mapping {
 
 struct StreetLidarConfig {
-  int beams = 64;                      ///< evenly from `lowest_deg` to `highest_deg`
-  double lowest_deg = -24.8;           ///< elevation of the lowest beam
-  double highest_deg = 2.0;            ///< elevation of the highest beam
-  double half_sector_deg = 50.0;       ///< azimuth kept to either side of straight ahead
-  double azimuth_step_deg = 0.2;       ///< between two shots of a beam
-  double max_range_m = 100.0;          ///< farther surfaces give no return
-  double range_sigma_m = 0.02;         ///< standard deviation along the beam
-  double dropout = 0.02;               ///< share of the returns that is lost anywhere
-  double glass_dropout = 0.5;          ///< share lost on windows
+  int beams = 64;                 ///< evenly from `lowest_deg` to `highest_deg`
+  double lowest_deg = -24.8;      ///< elevation of the lowest beam
+  double highest_deg = 2.0;       ///< elevation of the highest beam
+  double half_sector_deg = 50.0;  ///< azimuth kept to either side of straight ahead
+  double azimuth_step_deg = 0.2;  ///< between two shots of a beam
+  double max_range_m = 100.0;     ///< farther surfaces give no return
+  double range_sigma_m = 0.02;    ///< standard deviation along the beam
+  double dropout = 0.02;          ///< share of the returns that is lost anywhere
+  double glass_dropout = 0.5;     ///< share lost on windows
 };
 
 /// Throws std::invalid_argument if the configuration is out of range.

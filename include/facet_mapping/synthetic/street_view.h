@@ -23,8 +23,8 @@ struct StreetViewConfig {
 
 /// What a real camera adds. Same seed, same noise.
 struct SensorNoise {
-  double gain = 1.0;         ///< of the exposure
-  double sigma_grey = 0.0;   ///< standard deviation per pixel and channel, grey levels
+  double gain = 1.0;        ///< of the exposure
+  double sigma_grey = 0.0;  ///< standard deviation per pixel and channel, grey levels
   std::uint64_t seed = 0;
 };
 
