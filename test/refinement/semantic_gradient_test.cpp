@@ -92,7 +92,7 @@ void expect_agreement(const Problem& problem, double tolerance) {
     const double expected =
         (supersampled_energy(problem, ahead, gates) - supersampled_energy(problem, back, gates)) /
         (2.0 * kStep);
-    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.5 * scale));
+    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.2 * scale));
   }
 }
 
@@ -140,13 +140,18 @@ Problem roof() {
   }
   const PinholeCamera camera = test::make_camera(160, 120, 160.0);
   for (const double x : {-0.9, 0.6}) {
-    const View view = test::view_with_y_up(camera, {x, 0.4, 2.5}, {0.05, 0.0, 0.0});
+    View view = test::view_with_y_up(camera, {x, 0.4, 2.5}, {0.05, 0.0, 0.0});
+    // Rolled, so that the ridge lies at every position within the pixels.
+    view.world_from_cam.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
     cv::Mat mask(camera.height, camera.width, CV_16UC1, cv::Scalar(4));
     for (int row = 0; row < mask.rows; ++row) {
       for (int column = 0; column < mask.cols; ++column) {
+        const Eigen::Vector3d ray =
+            view.world_from_cam.linear() *
+            camera.ray({static_cast<double>(column), static_cast<double>(row)});
+        const Eigen::Vector3d hit = view.center() - view.center().z() / ray.z() * ray;
         // Nowhere within a step of the ridge, where the energy has a kink.
-        const double wave = 2.0 * std::sin(0.06 * row);
-        if (column < 86.0 + wave - 0.02 * (row - 60)) {
+        if (hit.x() < 0.07 + 0.02 * std::sin(8.0 * hit.y())) {
           mask.at<Label>(row, column) = 3;
         }
       }
@@ -165,7 +170,7 @@ TEST(SemanticGradient, AgreesWithFiniteDifferencesForFacetsSmallerThanAPixel) {
 }
 
 TEST(SemanticGradient, AgreesWithFiniteDifferencesAtACrease) {
-  expect_agreement(roof(), 0.05);
+  expect_agreement(roof(), 0.1);
 }
 
 TEST(SemanticGradient, TheSurfaceBehindAContourGetsNoForce) {
