@@ -94,6 +94,7 @@ std::optional<BorderPoint> BorderTracer::trace(int facet,
       point.weights = {weight_a / (weight_a + weight_b), weight_b / (weight_a + weight_b)};
       point.point_in_cam = point.weights[0] * here.corner[a] + point.weights[1] * here.corner[b];
       point.position = exit.position;
+      point.occluding = beyond.orientation != here.orientation;
       return point;
     }
     const FacetNeighbours& back = neighbours_[next];

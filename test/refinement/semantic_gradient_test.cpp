@@ -69,11 +69,19 @@ std::vector<Eigen::Vector3d> random_direction(const TriangleMesh& mesh, unsigned
   return direction;
 }
 
+VertexField whole_gradient(const Problem& problem,
+                           const std::vector<SurfaceView>& surfaces,
+                           const std::vector<SemanticGate>& gates) {
+  SemanticGradient parts = semantic_gradient(problem.mesh, problem.views, surfaces, gates);
+  parts.contours.add(parts.seams);
+  return parts.contours;
+}
+
 void expect_agreement(const Problem& problem, double tolerance) {
   const std::vector<SurfaceView> surfaces = render_surfaces(problem.mesh, problem.poses(), kMinCos);
   const std::vector<SemanticGate> gates =
       semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
-  const VertexField field = semantic_gradient(problem.mesh, problem.views, surfaces, gates);
+  const VertexField field = whole_gradient(problem, surfaces, gates);
   constexpr double kStep = 4e-3;  // some tenths of a pixel
   double scale = 0.0;
   for (const Eigen::Vector3d& g : field.gradient) {
@@ -178,7 +186,7 @@ TEST(SemanticGradient, TheSurfaceBehindAContourGetsNoForce) {
   const std::vector<SurfaceView> surfaces = render_surfaces(problem.mesh, problem.poses(), kMinCos);
   const std::vector<SemanticGate> gates =
       semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
-  const VertexField field = semantic_gradient(problem.mesh, problem.views, surfaces, gates);
+  const VertexField field = whole_gradient(problem, surfaces, gates);
   double on_ball = 0.0;
   for (std::size_t k = 0; k < field.gradient.size(); ++k) {
     if (problem.mesh.vertices[k].z() < -1.0) {
@@ -211,8 +219,7 @@ TEST(SemanticGradient, ViewsWithoutSegmentationSayNothing) {
   const std::vector<SemanticGate> gates =
       semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
   EXPECT_EQ(semantic_energy(problem.mesh, problem.views, surfaces, gates).pixels, 0U);
-  for (const Eigen::Vector3d& g :
-       semantic_gradient(problem.mesh, problem.views, surfaces, gates).gradient) {
+  for (const Eigen::Vector3d& g : whole_gradient(problem, surfaces, gates).gradient) {
     EXPECT_EQ(g.norm(), 0.0);
   }
 }
@@ -222,11 +229,31 @@ TEST(SemanticGradient, NormalPartIsParallelToTheNormals) {
   const std::vector<SurfaceView> surfaces = render_surfaces(problem.mesh, problem.poses(), kMinCos);
   const std::vector<SemanticGate> gates =
       semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
-  VertexField field = semantic_gradient(problem.mesh, problem.views, surfaces, gates);
+  VertexField field = whole_gradient(problem, surfaces, gates);
   keep_normal_part(problem.mesh, &field);
   const std::vector<Eigen::Vector3d> normals = vertex_normals(problem.mesh);
   for (std::size_t k = 0; k < normals.size(); ++k) {
     EXPECT_NEAR(field.gradient[k].cross(normals[k]).norm(), 0.0, 1e-9);
+  }
+  field = whole_gradient(problem, surfaces, gates);
+  keep_tangential_part(problem.mesh, &field);
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    EXPECT_NEAR(field.gradient[k].dot(normals[k]), 0.0, 1e-9);
+  }
+}
+
+TEST(SemanticGradient, TellsContoursFromSeams) {
+  for (const bool ball : {true, false}) {
+    const Problem problem = ball ? ball_before_wall(4) : roof();
+    const std::vector<SurfaceView> surfaces =
+        render_surfaces(problem.mesh, problem.poses(), kMinCos);
+    const std::vector<SemanticGate> gates =
+        semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
+    const SemanticGradient parts = semantic_gradient(problem.mesh, problem.views, surfaces, gates);
+    const VertexField& empty = ball ? parts.seams : parts.contours;
+    for (const double h : empty.curvature) {
+      EXPECT_EQ(h, 0.0);
+    }
   }
 }
 

@@ -20,7 +20,8 @@ struct BorderPoint {
   std::array<std::uint32_t, 2> vertices{};  ///< ends of the edge
   std::array<double, 2> weights{};          ///< barycentric: phi_k at the point
   Eigen::Vector3d point_in_cam = Eigen::Vector3d::Zero();
-  double position = 0.0;  ///< along the line, 0 at the first pixel, 1 at the second
+  double position = 0.0;   ///< along the line, 0 at the first pixel, 1 at the second
+  bool occluding = false;  ///< the surface turns away here; else two classes share the edge
 };
 
 /// Follows the visible surface of one class in image space, facet by facet, to its end.
