@@ -15,8 +15,10 @@ void add_flows(ParameterTable* table, RefinementConfig* c) {
       {{"off", SemanticMode::kOff},
        {"normal", SemanticMode::kNormal},
        {"full", SemanticMode::kFull},
+       {"split", SemanticMode::kSplit},
        {"pairwise", SemanticMode::kPairwise}},
       "semantic flow: off; normal: along the surface normal; full: class borders may slide, too; "
+      "split: contours move the shape, borders on a continuous surface slide; "
       "pairwise: between views, for comparison");
   table->add("refinement/semantic_weight",
              &c->semantic_weight,

@@ -114,7 +114,7 @@ TEST(RefineLabels, PlanarClassesAreSmoothedMore) {
   EXPECT_LT(motion(10.0), 0.7 * motion(1.0));
 }
 
-TEST(RefineLabels, PairwiseModeLowersItsEnergyToo) {
+TEST(RefineLabels, PairwiseModeRunsBesideThePhotometricFlow) {
   test::Scene scene = segmented_plane();
   scene.mesh.labels.assign(scene.mesh.triangles.size(), 1);
   RefinementConfig config;

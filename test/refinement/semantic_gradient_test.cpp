@@ -79,6 +79,10 @@ VertexField whole_gradient(const Problem& problem,
 
 void expect_agreement(const Problem& problem, double tolerance) {
   const std::vector<SurfaceView> surfaces = render_surfaces(problem.mesh, problem.poses(), kMinCos);
+  // The energy counts pixels beyond the end of an open mesh, whose motion the gradient leaves out.
+  for (const SurfaceView& surface : surfaces) {
+    ASSERT_EQ(cv::countNonZero(surface.image.facets < 0), 0);
+  }
   const std::vector<SemanticGate> gates =
       semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
   const VertexField field = whole_gradient(problem, surfaces, gates);
@@ -100,7 +104,7 @@ void expect_agreement(const Problem& problem, double tolerance) {
     const double expected =
         (supersampled_energy(problem, ahead, gates) - supersampled_energy(problem, back, gates)) /
         (2.0 * kStep);
-    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.2 * scale));
+    EXPECT_NEAR(analytic, expected, tolerance * std::max(std::abs(expected), 0.1 * scale));
   }
 }
 
@@ -140,7 +144,7 @@ Problem ball_before_wall(int subdivisions) {
 Problem roof() {
   Problem problem;
   problem.mesh =
-      test::make_height_field(30, 30, 0.2, [](double x, double) { return -0.3 * std::abs(x); });
+      test::make_height_field(44, 44, 0.2, [](double x, double) { return -0.3 * std::abs(x); });
   for (const Triangle& t : problem.mesh.triangles) {
     const double x = problem.mesh.vertices[t[0]].x() + problem.mesh.vertices[t[1]].x() +
                      problem.mesh.vertices[t[2]].x();
@@ -178,7 +182,7 @@ TEST(SemanticGradient, AgreesWithFiniteDifferencesForFacetsSmallerThanAPixel) {
 }
 
 TEST(SemanticGradient, AgreesWithFiniteDifferencesAtACrease) {
-  expect_agreement(roof(), 0.1);
+  expect_agreement(roof(), 0.03);
 }
 
 TEST(SemanticGradient, TheSurfaceBehindAContourGetsNoForce) {
@@ -197,6 +201,22 @@ TEST(SemanticGradient, TheSurfaceBehindAContourGetsNoForce) {
     }
   }
   EXPECT_GT(on_ball, 10.0);
+}
+
+TEST(SemanticGradient, TheEndOfAnOpenMeshGetsNoForce) {
+  Problem problem;
+  problem.mesh = test::make_grid_plane(6, 6, 0.2);
+  problem.mesh.labels.assign(problem.mesh.triangles.size(), 1);
+  const PinholeCamera camera = test::make_camera(160, 120, 160.0);
+  const cv::Mat everywhere(camera.height, camera.width, CV_16UC1, cv::Scalar(1));
+  problem.views = {{test::look_at(camera, {0.2, 0.1, 3.0}, {0, 0, 0}), everywhere}};
+  const std::vector<SurfaceView> surfaces = render_surfaces(problem.mesh, problem.poses(), kMinCos);
+  const std::vector<SemanticGate> gates =
+      semantic_gates(problem.mesh, problem.views, surfaces, kWindow);
+  ASSERT_GT(semantic_energy(problem.mesh, problem.views, surfaces, gates).sum, 0.0);
+  for (const Eigen::Vector3d& g : whole_gradient(problem, surfaces, gates).gradient) {
+    EXPECT_EQ(g.norm(), 0.0);
+  }
 }
 
 TEST(SemanticGradient, VanishesWhereMasksAgree) {

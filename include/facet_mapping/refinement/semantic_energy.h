@@ -56,7 +56,8 @@ struct SemanticGradient {
 /// the borders between rendered classes:
 ///   dE/dX_k = sum over border points of phi_k [e_a - e_b] DP_i(x)^T m,
 /// per pixel of border, m the image normal from class a to class b, e_q the gated cost of showing
-/// class q there. At an occluding contour the border belongs to the nearer surface alone.
+/// class q there. At an occluding contour the border belongs to the nearer surface alone. Left out:
+/// the end of an open mesh, which is where the reconstruction ends and not where an object does.
 /// The curvature lets a vertex move about one pixel where all votes agree.
 SemanticGradient semantic_gradient(const TriangleMesh& mesh,
                                    const std::vector<SemanticView>& views,
