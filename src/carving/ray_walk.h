@@ -26,6 +26,13 @@ class RayWalk {
   RayWalk() = default;  ///< done()
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
 
+  /// A walk that still has to turn around its start: call advance() while turning(), before
+  /// anything else is asked.
+  static RayWalk turning_walk(const Triangulation& triangulation,
+                              VertexHandle start,
+                              const Point& target);
+  bool turning() const { return turning_; }
+
   /// The present cell; invalid once done().
   CellHandle cell() const { return cell_; }
   /// True at the end of the segment or where it leaves the convex hull.
@@ -59,7 +66,8 @@ class RayWalk {
 
   void choose_axes();
   void enter_from_vertex(VertexHandle start);
-  bool find_first_cell(VertexHandle start);
+  void find_separating_facet(bool is_first_known);
+  void turn_around_start(CellHandle next, VertexHandle apex);
   Corner corner(VertexHandle vertex) const;
   static Turn turn(const Corner& a, const Corner& b);
   bool turns_left(const Corner& a, const Corner& b) const;
@@ -81,6 +89,7 @@ class RayWalk {
   CellHandle cell_;
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   int exit_ = -1;
+  bool turning_ = false;  ///< the exit facet separates the present cell from the target
   bool at_target_ = false;
   bool done_ = true;
 };
@@ -137,9 +146,11 @@ inline int RayWalk::hidden_corner(const Corner& reached) const {
   if (!(first.sure & second.sure & third.sure)) {
     return hidden_corner_exactly(reached);
   }
-  constexpr std::array<std::int8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
-  return kHidden[static_cast<unsigned>(first.left) + 2U * static_cast<unsigned>(second.left) +
-                 4U * static_cast<unsigned>(third.left)];
+  constexpr unsigned kHidden = 0x1908;  // two bits each: 0 2 0 0 1 2 1 0
+  const unsigned turns = static_cast<unsigned>(first.left) +
+                         2U * static_cast<unsigned>(second.left) +
+                         4U * static_cast<unsigned>(third.left);
+  return static_cast<int>((kHidden >> (2U * turns)) & 3U);
 }
 
 // The segment leaves through its exit facet between that one's corners, so that mostly the main
@@ -151,14 +162,16 @@ inline void RayWalk::check_target() {
 
 inline void RayWalk::fetch_next_cell() const {
   const auto* next = reinterpret_cast<const char*>(&*cell_->neighbor(exit_));
-  constexpr std::size_t kCacheLine = 64;
+  constexpr std::size_t kHotBytes = 4 * sizeof(CellHandle) + 4 * sizeof(VertexHandle);
   __builtin_prefetch(next);
-  __builtin_prefetch(next + kCacheLine);
+  __builtin_prefetch(next + kHotBytes - 1);
 }
 
 inline void RayWalk::fetch_next_corner() const {
   const CellHandle next = cell_->neighbor(exit_);
-  __builtin_prefetch(&next->vertex(index_of(next, cell_))->point());
+  const double* corner = next->vertex(index_of(next, cell_))->point().cartesian_begin();
+  __builtin_prefetch(corner);
+  __builtin_prefetch(corner + 2);
 }
 
 inline void RayWalk::advance() {
@@ -166,6 +179,11 @@ inline void RayWalk::advance() {
   const VertexHandle apex = next->vertex(index_of(next, cell_));
   if (at_target_ || apex == infinite_) {
     done_ = true;
+    turning_ = false;
+    return;
+  }
+  if (turning_) {
+    turn_around_start(next, apex);
     return;
   }
   cell_ = next;
