@@ -66,7 +66,8 @@ void RayWalk::choose_axes() {
 
 bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
   const Turn quick = turn(a, b);
-  return quick.sure ? quick.left : turns_left_exactly(a.vertex->point(), b.vertex->point());
+  return quick.margin > 0.0 ? quick.cross > 0.0
+                            : turns_left_exactly(a.vertex->point(), b.vertex->point());
 }
 
 int RayWalk::hidden_corner_exactly(const Corner& reached) const {

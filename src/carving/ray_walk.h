@@ -46,7 +46,7 @@ class RayWalk {
   /// Fetch into the cache what the next advance() reads, for walks by turns (see ray_bundle.h): the
   /// cell first, then, once that is there, its far corner. Not to be called once done().
   void fetch_next_cell() const;
-  void fetch_next_corner() const;
+  void fetch_next_corner();
 
  private:
   /// A vertex seen along the segment: shifted along it onto a coordinate plane through the start.
@@ -58,10 +58,12 @@ class RayWalk {
     unsigned before;  ///< 1 if nearer than the target along the main axis, exactly
   };
 
-  /// Which way two corners turn around the segment.
+  /// Which way two corners turn around the segment: left if `cross` is positive, and that is sure
+  /// if `margin` is.
   struct Turn {
-    bool left;
-    bool sure;
+    double cross;
+    double margin;
+    unsigned right() const { return static_cast<unsigned>(std::signbit(cross)); }
   };
 
   void choose_axes();
@@ -74,6 +76,7 @@ class RayWalk {
   bool turns_left_exactly(const Point& a, const Point& b) const;
   int hidden_corner(const Corner& reached) const;
   int hidden_corner_exactly(const Corner& reached) const;
+  VertexHandle next_corner() const;
   void check_target();
   bool sees_inside() const;
 
@@ -88,6 +91,7 @@ class RayWalk {
   double end_ = 0.0;                ///< direction times the target's w
   CellHandle cell_;
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
+  VertexHandle apex_;             ///< the next cell's far corner, if it was asked for before
   int exit_ = -1;
   bool turning_ = false;  ///< the exit facet separates the present cell from the target
   bool at_target_ = false;
@@ -134,7 +138,7 @@ inline RayWalk::Turn RayWalk::turn(const Corner& a, const Corner& b) {
   constexpr double kRelativeError = 2e-14;
   constexpr double kUnderflow = 1e-290;
   const double cross = a.u * b.v - a.v * b.u;
-  return {cross > 0.0, std::abs(cross) > kRelativeError * a.size * b.size + kUnderflow};
+  return {cross, std::abs(cross) - (kRelativeError * (a.size * b.size) + kUnderflow)};
 }
 
 // The new corner lies, seen along the segment, opposite to one side of the ring: that side and the
@@ -143,13 +147,11 @@ inline int RayWalk::hidden_corner(const Corner& reached) const {
   const Turn first = turn(reached, ring_[0]);
   const Turn second = turn(reached, ring_[1]);
   const Turn third = turn(reached, ring_[2]);
-  if (!(first.sure & second.sure & third.sure)) {
+  if (!(std::min(std::min(first.margin, second.margin), third.margin) > 0.0)) {
     return hidden_corner_exactly(reached);
   }
-  constexpr unsigned kHidden = 0x1908;  // two bits each: 0 2 0 0 1 2 1 0
-  const unsigned turns = static_cast<unsigned>(first.left) +
-                         2U * static_cast<unsigned>(second.left) +
-                         4U * static_cast<unsigned>(third.left);
+  constexpr unsigned kHidden = 0x2064;  // two bits for each pattern of right turns: 0 1 2 1 0 0 2 0
+  const unsigned turns = first.right() + 2U * second.right() + 4U * third.right();
   return static_cast<int>((kHidden >> (2U * turns)) & 3U);
 }
 
@@ -167,16 +169,22 @@ inline void RayWalk::fetch_next_cell() const {
   __builtin_prefetch(next + kHotBytes - 1);
 }
 
-inline void RayWalk::fetch_next_corner() const {
+inline VertexHandle RayWalk::next_corner() const {
   const CellHandle next = cell_->neighbor(exit_);
-  const double* corner = next->vertex(index_of(next, cell_))->point().cartesian_begin();
-  __builtin_prefetch(corner);
-  __builtin_prefetch(corner + 2);
+  return next->vertex(index_of(next, cell_));
+}
+
+inline void RayWalk::fetch_next_corner() {
+  apex_ = next_corner();
+  const double* point = apex_->point().cartesian_begin();
+  __builtin_prefetch(point);
+  __builtin_prefetch(point + 2);
 }
 
 inline void RayWalk::advance() {
   const CellHandle next = cell_->neighbor(exit_);
-  const VertexHandle apex = next->vertex(index_of(next, cell_));
+  const VertexHandle apex = apex_ != VertexHandle() ? apex_ : next_corner();
+  apex_ = VertexHandle();
   if (at_target_ || apex == infinite_) {
     done_ = true;
     turning_ = false;
