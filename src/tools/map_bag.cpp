@@ -13,6 +13,7 @@
 #include "carving_options.h"
 #include "tool_main.h"
 
+#include "facet_mapping/io/atomic_file.h"
 #include "facet_mapping/io/dataset.h"
 #include "facet_mapping/io/ply.h"
 #include "facet_mapping/io/progress_bar.h"
@@ -217,6 +218,7 @@ void run(const CLI::App& app, Options& options) {
         "bags are not read yet: give the folder that the bag was made of, or play the bag to the "
         "mapper node");
   }
+  temporary_beside(options.output);  // a path that cannot be written is noticed before the work
   const Dataset dataset = read_dataset(options.input);
   const bool has_mesh = !options.points_mesh.empty();
   const TriangleMesh mesh = has_mesh ? read_ply(options.points_mesh).mesh : TriangleMesh();
