@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Core>
@@ -12,6 +13,9 @@
 
 namespace facet_mapping::carving {
 namespace {
+
+// Far more cells than meet in any vertex: only a defect could turn in circles.
+constexpr int kMaxTurns = 1000000;
 
 Eigen::Vector3d difference(const Point& a, const Point& b) {
   return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
@@ -135,6 +139,9 @@ void RayWalk::find_separating_facet(bool is_first_known) {
 // That ends, as from any one point the cells of a Delaunay triangulation hide each other without
 // cycles (Edelsbrunner 1990). (CGAL's incident_cells marks cells: not for threads.)
 void RayWalk::turn_around_start(CellHandle next, VertexHandle apex) {
+  if (++turns_ > kMaxTurns) {
+    throw std::logic_error("ray walk: the cells around a vertex are no Delaunay triangulation");
+  }
   cell_ = next;
   ring_[2] = corner(apex);
   find_separating_facet(true);

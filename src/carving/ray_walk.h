@@ -93,6 +93,7 @@ class RayWalk {
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   VertexHandle apex_;             ///< the next cell's far corner, if it was asked for before
   int exit_ = -1;
+  int turns_ = 0;         ///< around the start, so far
   bool turning_ = false;  ///< the exit facet separates the present cell from the target
   bool at_target_ = false;
   bool done_ = true;
