@@ -35,7 +35,7 @@ def median_of(runs):
 
 
 def table(title, header, rows):
-    print("\n### %s\n\n| %s |\n|%s|" % (title, " | ".join(header), "---|" * len(header)))
+    print("\n### %s\n\n| %s |\n|%s" % (title, " | ".join(header), "---|" * len(header)))
     for row in rows:
         print("| %s |" % " | ".join(row))
     sys.stdout.flush()
