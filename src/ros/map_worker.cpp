@@ -79,6 +79,7 @@ void MapWorker::run() {
   std::deque<Item> frames;
   std::uint64_t epoch = 0;
   while (wait_for_frames(&frames, &epoch)) {
+    next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
     try {
       integrate(&frames, epoch);
     } catch (const std::exception& e) {
@@ -89,7 +90,6 @@ void MapWorker::run() {
       const std::lock_guard<std::mutex> lock(mutex_);
       in_work_ = 0;
     }
-    next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
   }
 }
 

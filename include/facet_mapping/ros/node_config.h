@@ -56,7 +56,7 @@ struct MapperNodeConfig {
   PoseInput pose;
   MeshOutput output;
   int queue_size = 500;          ///< frames that may wait for the map
-  double update_period_s = 1.0;  ///< least time between two updates, wall time
+  double update_period_s = 0.5;  ///< least time between two updates, wall time
   MapConfig map;
   CloudConfig cloud;  ///< cleaning of clouds without `label` (LiDAR); its range is that of the map
 };
