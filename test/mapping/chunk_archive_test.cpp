@@ -24,14 +24,14 @@ MeshChunk random_chunk(unsigned seed) {
   std::normal_distribution<float> normal;
   MeshChunk chunk;
   chunk.key = {static_cast<std::int32_t>(seed), -7, 1 - static_cast<std::int32_t>(random() % 99)};
-  chunk.revision = random();
+  chunk.revision = static_cast<std::uint32_t>(random());
   chunk.origin = {8.0 * seed, 1.0 / 3.0, -0.0};
   for (unsigned v = 0; v < 50; ++v) {
     chunk.vertices.emplace_back(normal(random), normal(random), normal(random));
-    chunk.vertex_ids.push_back(random());
+    chunk.vertex_ids.push_back(static_cast<std::uint32_t>(random()));
   }
   for (unsigned f = 0; f < 80; ++f) {
-    chunk.triangles.push_back({random() % 50U, random() % 50U, random() % 50U});
+    chunk.triangles.push_back({f % 50U, 3U * f % 50U, (7U * f + 1U) % 50U});
     chunk.labels.push_back(static_cast<Label>(random() % 20));
     chunk.confidence.push_back(static_cast<std::uint8_t>(random()));
   }

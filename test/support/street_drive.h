@@ -12,7 +12,7 @@
 #include "facet_mapping/synthetic/street_raycaster.h"
 #include "facet_mapping/synthetic/street_rig.h"
 
-namespace facet_mapping::testing {
+namespace facet_mapping::test {
 
 /// `frames` scans, 1.1 m apart, each thinned to `points` points within `range_m`.
 inline std::vector<PointFrame> street_drive(int frames, std::size_t points, double range_m) {
@@ -41,4 +41,4 @@ inline std::vector<PointFrame> street_drive(int frames, std::size_t points, doub
   return drive;
 }
 
-}  // namespace facet_mapping::testing
+}  // namespace facet_mapping::test
