@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "carving/ray_tracer.h"
@@ -24,7 +25,14 @@ struct FieldChange {
   std::vector<SiteId> removed;    ///< vertices that go
   std::vector<NewVertex> added;
   std::vector<RayEnd> attached;  ///< rays that come, or that ended elsewhere before
+  /// Rays that do not enter this ball are not traced again.
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double exact_radius_m = std::numeric_limits<double>::infinity();
 };
+
+double distance_to_segment(const Eigen::Vector3d& point,
+                           const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b);
 
 /// Invariant between calls: each cell's evidence is the sum over all rays that cross it. Only rays
 /// that crossed a cell that is gone are traced again (Litvinov & Lhuillier 2014), and only new
@@ -53,6 +61,7 @@ class EvidenceField {
   void add_vertices(std::vector<NewVertex> vertices);
   VertexHandle add_vertex(const Point& point);
   void attach(const std::vector<RayEnd>& ends);
+  void skip_outside(const FieldChange& change);
   void forget_evidence();
   void destroy(CellHandle cell);
   void trace();

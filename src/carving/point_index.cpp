@@ -6,12 +6,16 @@
 #include <algorithm>
 
 namespace facet_mapping::carving {
+namespace {
+
+constexpr double kCellsInReaches = 2.0;  ///< so that a search looks into two cells along an axis
+
+}  // namespace
 
 PointIndex::PointIndex(double min_reach_m, double max_reach_m) {
   constexpr double kStep = 4.0;
-  for (double spacing = min_reach_m; levels_.empty() || spacing < kStep * max_reach_m;
-       spacing *= kStep) {
-    levels_.push_back({std::min(spacing, max_reach_m), {}});
+  for (double reach = min_reach_m; levels_.empty() || reach < kStep * max_reach_m; reach *= kStep) {
+    levels_.push_back({kCellsInReaches * std::min(reach, max_reach_m), {}});
   }
 }
 
@@ -29,7 +33,7 @@ std::uint64_t PointIndex::key(const GridCell& cell) {
 
 const PointIndex::Level& PointIndex::level_for(double reach_m) const {
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && levels_[level].spacing_m < reach_m) {
+  while (level + 1 < levels_.size() && levels_[level].spacing_m < kCellsInReaches * reach_m) {
     ++level;
   }
   return levels_[level];

@@ -4,7 +4,6 @@
 // Points near a point: hash grids at growing spacings.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -32,12 +31,13 @@ class PointIndex {
   template <typename Visit>
   void for_each_near(const Eigen::Vector3d& point, double reach_m, const Visit& visit) const {
     const Level& grid = level_for(reach_m);
-    const GridCell center = grid_cell(point, grid.spacing_m);
-    const auto rings = static_cast<std::int64_t>(std::ceil(reach_m / grid.spacing_m));
-    for (std::int64_t x = -rings; x <= rings; ++x) {
-      for (std::int64_t y = -rings; y <= rings; ++y) {
-        for (std::int64_t z = -rings; z <= rings; ++z) {
-          const auto cell = grid.cells.find(key(center + GridCell(x, y, z)));
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach_m);
+    const GridCell low = grid_cell(point - margin, grid.spacing_m);
+    const GridCell high = grid_cell(point + margin, grid.spacing_m);
+    for (std::int64_t x = low.x(); x <= high.x(); ++x) {
+      for (std::int64_t y = low.y(); y <= high.y(); ++y) {
+        for (std::int64_t z = low.z(); z <= high.z(); ++z) {
+          const auto cell = grid.cells.find(key(GridCell(x, y, z)));
           if (cell == grid.cells.end()) {
             continue;
           }
@@ -56,9 +56,13 @@ class PointIndex {
 
  private:
   using GridCell = Eigen::Matrix<std::int64_t, 3, 1>;
+  /// The keys of a surface's cells are far from evenly spread.
+  struct Mix {
+    std::size_t operator()(std::uint64_t key) const { return (key * 0x9E3779B97F4A7C15ULL) >> 20U; }
+  };
   struct Level {
     double spacing_m;
-    std::unordered_map<std::uint64_t, std::vector<Entry>> cells;
+    std::unordered_map<std::uint64_t, std::vector<Entry>, Mix> cells;
   };
 
   const Level& level_for(double reach_m) const;

@@ -41,16 +41,81 @@ class RayTracer::Weigher {
   bool is_full_ = false;
 };
 
-bool RayTracer::target_of(const Ray& ray, VertexHandle vertex, bool behind, Point* target) const {
-  const Point eye = to_point(store_.frames[ray.frame].eye);
-  if (!behind) {
-    *target = eye;
-    return true;
+/// Rays to be looked up by their ids.
+class RayTracer::RayList {
+ public:
+  RayList(const RayTracer& tracer, const std::vector<RayId>& sorted_ids) {
+    if (sorted_ids.empty()) {
+      return;
+    }
+    first_ = sorted_ids.front();
+    slots_.assign(sorted_ids.back() - first_ + 1, kNoId);
+    rays_.reserve(sorted_ids.size());
+    for (const RayId id : sorted_ids) {
+      slots_[id - first_] = static_cast<std::uint32_t>(rays_.size());
+      rays_.push_back(tracer.segments({id, tracer.store_.rays[id].site}));
+    }
   }
-  const Kernel::Vector_3 away = vertex->point() - eye;
+
+  /// Null if the ray is not of the list.
+  const Segments* find(RayId id) const {
+    const RayId index = id - first_;  // wraps around below the first
+    return index < slots_.size() && slots_[index] != kNoId ? &rays_[slots_[index]] : nullptr;
+  }
+  const std::vector<Segments>& rays() const { return rays_; }
+
+ private:
+  RayId first_ = 0;
+  std::vector<std::uint32_t> slots_;
+  std::vector<Segments> rays_;
+};
+
+namespace {
+
+/// Quick, safe test whether a segment can cross a facet outward.
+class FacetSide {
+ public:
+  FacetSide(CellHandle cell, int facet) : corner_(at(cell, (facet + 1) & 3)) {
+    const Eigen::Vector3d ab = at(cell, (facet + 2) & 3) - corner_;
+    const Eigen::Vector3d ac = at(cell, (facet + 3) & 3) - corner_;
+    normal_ = ab.cross(ac);
+    if (normal_.dot(at(cell, facet) - corner_) > 0.0) {
+      normal_ = -normal_;
+    }
+    constexpr double kRelativeError = 1e-12;  // far above what rounding can do
+    error_ = kRelativeError * ab.lpNorm<1>() * ac.lpNorm<1>();
+  }
+
+  /// False only if `from` is surely beyond the facet's plane or `to` surely before it.
+  bool may_cross(const Point& from, const Point& to) const {
+    return height(from, -1.0) <= 0.0 && height(to, 1.0) >= 0.0;
+  }
+
+ private:
+  static Eigen::Vector3d at(CellHandle cell, int k) { return to_vector(cell->vertex(k)->point()); }
+  static Eigen::Vector3d to_vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+  double height(const Point& point, double sign) const {
+    const Eigen::Vector3d p = to_vector(point) - corner_;
+    return normal_.dot(p) + sign * error_ * p.lpNorm<1>();
+  }
+
+  Eigen::Vector3d corner_;
+  Eigen::Vector3d normal_;
+  double error_;
+};
+
+}  // namespace
+
+RayTracer::Segments RayTracer::segments(const RayEnd& end) const {
+  const Ray& ray = store_.rays[end.ray];
+  const VertexHandle vertex = vertices_.at(end.site);
+  const Point source = vertex->point();
+  const Point eye = to_point(store_.frames[ray.frame].eye);
+  const Kernel::Vector_3 away = source - eye;
   const double length = std::sqrt(away.squared_length());
-  *target = vertex->point() + away * (length > 0.0 ? behind_distance_m_ / length : 0.0);
-  return ray.label != kUnlabelled && length > 0.0;
+  const bool has_behind = ray.label != kUnlabelled && length > 0.0;
+  const Point behind = has_behind ? source + away * (behind_distance_m_ / length) : source;
+  return {end.ray, ray.sigma, has_behind, vertex, source, {eye, behind}};
 }
 
 std::vector<std::vector<Hit>> RayTracer::trace(const RayEnd* first, std::size_t count) const {
@@ -74,22 +139,17 @@ void RayTracer::trace_part(const RayEnd* first,
                            std::size_t count,
                            bool behind,
                            std::vector<std::vector<Hit>>* hits) const {
-  std::vector<VertexHandle> starts(count);
-  std::vector<Point> targets(count);
+  std::vector<Segments> rays(count);
   std::vector<Weigher> weighers(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const Ray& ray = store_.rays[first[k].ray];
-    starts[k] = vertices_.at(first[k].site);
-    if (!target_of(ray, starts[k], behind, &targets[k])) {
-      targets[k] = starts[k]->point();  // a walk of no length
-    }
-    weighers[k] = Weigher(starts[k]->point(), targets[k], ray.sigma);
+    rays[k] = segments(first[k]);
+    weighers[k] = Weigher(rays[k].source, rays[k].targets[behind ? 1 : 0], rays[k].sigma);
   }
   walk_rays(
       triangulation_,
       count,
-      [&](std::size_t k) { return starts[k]; },
-      [&](std::size_t k) -> const Point& { return targets[k]; },
+      [&](std::size_t k) { return rays[k].vertex; },
+      [&](std::size_t k) -> const Point& { return rays[k].targets[behind ? 1 : 0]; },
       [&](std::size_t k, const RayWalk& walk) {
         (*hits)[k].push_back({walk.cell(),
                               behind ? kRayWeight : weighers[k](walk),
@@ -104,91 +164,81 @@ void RayTracer::trace_part(const RayEnd* first,
 
 std::vector<std::vector<RayHit>> RayTracer::trace_new_cells(const std::vector<CellHandle>& cells,
                                                             const std::vector<RayId>& rays) const {
-  if (rays.empty()) {
-    return {};
-  }
-  std::vector<bool> wanted(rays.back() - rays.front() + 1, false);
-  for (const RayId id : rays) {
-    wanted[id - rays.front()] = true;
-  }
+  const RayList list(*this, rays);
   constexpr std::size_t kBlock = 256;
-  const std::size_t cell_blocks = (cells.size() + kBlock - 1) / kBlock;
+  const std::size_t cell_blocks = rays.empty() ? 0 : (cells.size() + kBlock - 1) / kBlock;
   const std::size_t ray_blocks = (rays.size() + kBlock - 1) / kBlock;
   std::vector<std::vector<RayHit>> hits(cell_blocks + ray_blocks);
   tbb::parallel_for(std::size_t{0}, hits.size(), [&](std::size_t block) {
     if (block < cell_blocks) {
       const std::size_t end = std::min(cells.size(), (block + 1) * kBlock);
       for (std::size_t k = block * kBlock; k < end; ++k) {
-        enter_cell(cells[k], rays, wanted, &hits[block]);
+        enter_cell(cells[k], list, &hits[block]);
       }
       return;
     }
     const std::size_t end = std::min(rays.size(), (block - cell_blocks + 1) * kBlock);
     for (std::size_t k = (block - cell_blocks) * kBlock; k < end; ++k) {
-      start_ray(rays[k], &hits[block]);
+      start_ray(list.rays()[k], &hits[block]);
     }
   });
   return hits;
 }
 
-void RayTracer::enter_cell(CellHandle cell,
-                           const std::vector<RayId>& rays,
-                           const std::vector<bool>& wanted,
-                           std::vector<RayHit>* hits) const {
+void RayTracer::enter_cell(CellHandle cell, const RayList& rays, std::vector<RayHit>* hits) const {
   for (int k = 0; k < 4; ++k) {
     const CellHandle old = cell->neighbor(k);
-    if (old->info().is_new || triangulation_.is_infinite(old)) {
+    if (!old->info().is_new && !triangulation_.is_infinite(old)) {
+      enter_through(old, old->index(cell), rays, hits);
+    }
+  }
+}
+
+void RayTracer::enter_through(CellHandle old,
+                              int facet,
+                              const RayList& rays,
+                              std::vector<RayHit>* hits) const {
+  const FacetSide side(old, facet);
+  for (const RayId id : old->info().rays) {
+    const Segments* ray = rays.find(id);
+    if (ray == nullptr) {
       continue;
     }
-    const int facet = old->index(cell);
-    for (const RayId id : old->info().rays) {
-      const RayId index = id - rays.front();  // wraps around below the first
-      if (index >= wanted.size() || !wanted[index]) {
+    for (const bool behind : {false, true}) {
+      const Point& target = ray->targets[behind ? 1 : 0];
+      if (!side.may_cross(ray->source, target)) {
         continue;
       }
-      const Ray& ray = store_.rays[id];
-      const VertexHandle vertex = vertices_.at(ray.site);
-      for (const bool behind : {false, true}) {
-        Point target;
-        if (!target_of(ray, vertex, behind, &target)) {
-          continue;
-        }
-        RayWalk walk = RayWalk::through(triangulation_, vertex, target, old, facet);
-        if (!walk.done()) {
-          walk.advance();
-          follow(walk, id, behind, hits);
-          break;
-        }
+      RayWalk walk = RayWalk::through(triangulation_, ray->vertex, target, old, facet);
+      if (!walk.done()) {
+        walk.advance();
+        follow(walk, *ray, behind, hits);
+        break;
       }
     }
   }
 }
 
-void RayTracer::start_ray(RayId id, std::vector<RayHit>* hits) const {
-  const Ray& ray = store_.rays[id];
-  const VertexHandle vertex = vertices_.at(ray.site);
-  for (const bool behind : {false, true}) {
-    Point target;
-    if (target_of(ray, vertex, behind, &target)) {
-      follow(RayWalk(triangulation_, vertex, target), id, behind, hits);
-    }
+void RayTracer::start_ray(const Segments& ray, std::vector<RayHit>* hits) const {
+  follow(RayWalk(triangulation_, ray.vertex, ray.targets[0]), ray, false, hits);
+  if (ray.has_behind) {
+    follow(RayWalk(triangulation_, ray.vertex, ray.targets[1]), ray, true, hits);
   }
 }
 
-void RayTracer::follow(RayWalk walk, RayId id, bool behind, std::vector<RayHit>* hits) const {
-  const Ray& ray = store_.rays[id];
-  const VertexHandle vertex = vertices_.at(ray.site);
-  Point target;
-  target_of(ray, vertex, behind, &target);
-  Weigher weigh(vertex->point(), target, ray.sigma);
+void RayTracer::follow(RayWalk walk,
+                       const Segments& ray,
+                       bool behind,
+                       std::vector<RayHit>* hits) const {
+  Weigher weigh(ray.source, ray.targets[behind ? 1 : 0], ray.sigma);
   for (; !walk.done() && walk.cell()->info().is_new; walk.advance()) {
-    hits->push_back({id,
+    hits->push_back({ray.ray,
                      {walk.cell(),
                       behind ? kRayWeight : weigh(walk),
                       behind ? Hit::Part::kBehind : Hit::Part::kFront}});
   }
   if (walk.done() && walk.left_hull()) {
-    hits->push_back({id, {walk.cell(), 0, Hit::Part::kOutside}});
+    hits->push_back({ray.ray, {walk.cell(), 0, Hit::Part::kOutside}});
   }
 }
 

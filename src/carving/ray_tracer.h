@@ -4,6 +4,7 @@
 // Which cells take evidence from a ray, and how much.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -58,19 +59,30 @@ class RayTracer {
                                                    const std::vector<RayId>& rays) const;
 
  private:
+  /// A ray's two parts, from its vertex to the sensor and away from it.
+  struct Segments {
+    RayId ray;
+    float sigma;
+    bool has_behind;
+    VertexHandle vertex;
+    Point source;
+    std::array<Point, 2> targets;  ///< front, behind
+  };
   class Weigher;
+  class RayList;
 
-  bool target_of(const Ray& ray, VertexHandle vertex, bool behind, Point* target) const;
+  Segments segments(const RayEnd& end) const;
   void trace_part(const RayEnd* first,
                   std::size_t count,
                   bool behind,
                   std::vector<std::vector<Hit>>* hits) const;
-  void enter_cell(CellHandle cell,
-                  const std::vector<RayId>& rays,
-                  const std::vector<bool>& wanted,
-                  std::vector<RayHit>* hits) const;
-  void start_ray(RayId id, std::vector<RayHit>* hits) const;
-  void follow(RayWalk walk, RayId id, bool behind, std::vector<RayHit>* hits) const;
+  void enter_cell(CellHandle cell, const RayList& rays, std::vector<RayHit>* hits) const;
+  void enter_through(CellHandle old,
+                     int facet,
+                     const RayList& rays,
+                     std::vector<RayHit>* hits) const;
+  void start_ray(const Segments& ray, std::vector<RayHit>* hits) const;
+  void follow(RayWalk walk, const Segments& ray, bool behind, std::vector<RayHit>* hits) const;
 
   const Triangulation& triangulation_;
   const RayStore& store_;

@@ -85,6 +85,7 @@ class SpaceCarver::Impl {
   FrameId put_in(const CarvingFrame& frame);
   void note_sites(const SiteChanges& changes, FieldChange* change);
   void note_steiner(FieldChange* change);
+  bool is_outside(const Site& site, const Eigen::Vector3d& center, double radius_m) const;
 
   CarvingConfig config_;
   RayStore rays_;
@@ -194,11 +195,24 @@ void SpaceCarver::Impl::note_steiner(FieldChange* change) {
   }
 }
 
+bool SpaceCarver::Impl::is_outside(const Site& site,
+                                   const Eigen::Vector3d& center,
+                                   double radius_m) const {
+  if ((site.point - center).norm() <= radius_m) {
+    return false;
+  }
+  return std::none_of(site.rays.begin(), site.rays.end(), [&](RayId id) {
+    const Eigen::Vector3d& eye = rays_.frames[rays_.rays[id].frame].eye;
+    return distance_to_segment(center, site.point, eye) <= radius_m;
+  });
+}
+
 void SpaceCarver::Impl::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
   FieldChange change;
+  change.center = center;
+  change.exact_radius_m = radius_m;
   sites_.all().for_each_id([&](SiteId id) {
-    const Site& site = sites_[id];
-    if (site.founder != kNoId && (site.point - center).norm() > radius_m) {
+    if (sites_[id].founder != kNoId && is_outside(sites_[id], center, radius_m)) {
       change.removed.push_back(id);
     }
   });

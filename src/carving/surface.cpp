@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 
 namespace facet_mapping::carving {
 namespace {
@@ -70,19 +69,20 @@ class SurfaceBuilder {
 
  private:
   std::uint32_t index(VertexHandle vertex) {
-    const auto [at, is_new] = index_of_id_.try_emplace(
-        vertex->info().id, static_cast<std::uint32_t>(surface_.mesh.vertices.size()));
-    if (is_new) {
+    VertexInfo& info = vertex->info();
+    const bool is_known = info.mesh_index < surface_.vertex_ids.size() &&
+                          surface_.vertex_ids[info.mesh_index] == info.id;
+    if (!is_known) {
+      info.mesh_index = static_cast<std::uint32_t>(surface_.mesh.vertices.size());
       const Point& p = vertex->point();
       surface_.mesh.vertices.emplace_back(p.x(), p.y(), p.z());
-      surface_.vertex_ids.push_back(vertex->info().id);
+      surface_.vertex_ids.push_back(info.id);
     }
-    return at->second;
+    return info.mesh_index;
   }
 
   double max_edge_m_;
   CarvedSurface surface_;
-  std::unordered_map<std::uint32_t, std::uint32_t> index_of_id_;
 };
 
 }  // namespace

@@ -34,6 +34,7 @@ struct VertexInfo {
   std::uint32_t id = 0;          ///< its site
   std::uint32_t free_cells = 0;  ///< incident cells inside the manifold free space
   std::uint32_t rays = 0;        ///< rays that end on a surface here
+  std::uint32_t mesh_index = 0;  ///< in the surface being made
   bool is_dirty = true;          ///< cells around it changed since the last growth
   bool must_check = false;       ///< a cell around it was taken into or out of the free space
   LabelEvidence labels;          ///< labels of the points that this vertex stands for

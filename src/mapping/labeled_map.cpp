@@ -150,10 +150,7 @@ bool LabeledMap::update() {
 
 void LabeledMap::integrate() {
   // What the last update froze is with its owner by now.
-  if (std::isfinite(freeze_line_.radius_m)) {
-    const double reach = freeze_line_.radius_m + range_scale_ * config_.max_range_m;
-    carver_.forget_beyond(freeze_line_.center, reach);
-  }
+  forget();
   std::vector<FrameId> removed;
   for (const auto& [id, pose] : moves_) {
     Held& held = held_.at(id);
@@ -174,6 +171,20 @@ void LabeledMap::integrate() {
     held_.at(pending_[k]).carving_id = ids[k];
   }
   pending_.clear();
+}
+
+// Cells near what is dropped change their shape, hence a margin; and it is not worth the while
+// until the vehicle has gone some way.
+void LabeledMap::forget() {
+  constexpr double kStepInRadii = 0.1;
+  const double radius = freeze_line_.radius_m;
+  const double step = (freeze_line_.center - forgotten_from_).norm();
+  if (!std::isfinite(radius) || (step < kStepInRadii * radius && range_scale_ >= 1.0)) {
+    return;
+  }
+  const double margin = 2.0 * config_.carving.steiner_spacing_m + config_.carving.max_facet_edge_m;
+  carver_.forget_beyond(freeze_line_.center, radius + margin);
+  forgotten_from_ = freeze_line_.center;
 }
 
 void LabeledMap::freeze() {
@@ -230,6 +241,7 @@ void LabeledMap::reset() {
   moves_.clear();
   last_pose_.clear();
   freeze_line_ = {};
+  forgotten_from_ = Eigen::Vector3d::Zero();
   range_scale_ = 1.0;
   keyframe_count_ = 0;
   last_stamp_ = 0.0;

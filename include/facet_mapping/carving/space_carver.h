@@ -100,8 +100,9 @@ class SpaceCarver {
   }
   void remove(const std::vector<FrameId>& ids) { update(ids, {}); }
 
-  /// Drops all points farther than `radius_m` from `center`, with their rays. Cells farther from
-  /// what is dropped than the longest ray keep exactly the evidence that they have.
+  /// Drops the points outside the ball none of whose rays enters it, with their rays. Cells inside
+  /// the ball whose vertices all stay keep exactly the evidence that they have; what lies outside
+  /// is not kept exact any more.
   void forget_beyond(const Eigen::Vector3d& center, double radius_m);
 
   /// True while a ray of the frame is in the map.

@@ -104,6 +104,7 @@ class LabeledMap {
   bool admit(const LabeledPoint& point, FrameReport* report, CarvingFrame::Ray* ray) const;
   CarvingFrame carving_frame(const PointFrame& frame, FrameReport* report) const;
   void integrate();
+  void forget();
   void freeze();
   void obey_budget();
 
@@ -116,6 +117,7 @@ class LabeledMap {
   std::map<KeyframeId, Eigen::Isometry3d> moves_;
   std::map<std::string, Eigen::Isometry3d> last_pose_;
   FreezeLine freeze_line_;
+  Eigen::Vector3d forgotten_from_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d newest_position_ = Eigen::Vector3d::Zero();
   double range_scale_ = 1.0;
   std::size_t keyframe_count_ = 0;
