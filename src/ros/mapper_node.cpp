@@ -202,8 +202,6 @@ void MapperNode::publish_update(MapUpdate update) {
   state->vertex_ids = std::move(update.surface.vertex_ids);
   state->stamp = ros::Time(std::max(0.0, update.stamp));
   state->line = update.line;
-  diagnostics_.set("facets that can still change",
-                   static_cast<double>(state->mesh.triangles.size()));
   publisher_.publish(std::move(state));
   keyframe_path_.publish(update.movable);
   note_update(update);
@@ -215,6 +213,7 @@ void MapperNode::publish_update(MapUpdate update) {
 void MapperNode::note_update(const MapUpdate& update) {
   diagnostics_.count("updates");
   diagnostics_.set("seconds of the last update", update.seconds);
+  diagnostics_.set("facets", static_cast<double>(publisher_.facets()));
   diagnostics_.set("frozen chunks", static_cast<double>(publisher_.frozen().chunks));
   if (update.range_scale < 1.0) {
     std::ostringstream text;

@@ -228,10 +228,16 @@ void MeshPublisher::report(const std::string& problem) const {
   }
 }
 
-bool MeshPublisher::has_facets() const {
+std::size_t MeshPublisher::facets() const {
   const Lock lock(mutex_);
-  return in_chunks_ ? archive_.size() + chunks_.chunks().size() > 0
-                    : state_ && !state_->mesh.empty();
+  if (!in_chunks_) {
+    return state_ ? state_->mesh.triangles.size() : 0;
+  }
+  std::size_t facets = archive_.totals().facets;
+  for (const auto& [key, chunk] : chunks_.chunks()) {
+    facets += chunk.triangles.size();
+  }
+  return facets;
 }
 
 MeshTotals MeshPublisher::totals() const {

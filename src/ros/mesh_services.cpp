@@ -52,7 +52,7 @@ MeshServices::MeshServices(ros::NodeHandle private_nh,
 }
 
 void MeshServices::require_mesh() const {
-  if (!publisher_->has_facets()) {
+  if (publisher_->facets() == 0) {
     throw ServiceError(Status::NOT_READY, "there is no mesh yet: " + how_to_get_one_);
   }
 }
@@ -96,8 +96,7 @@ bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& respon
     const TriangleMesh part =
         filter_mesh(state->mesh, request.region, region_from_map, to_labels(request.classes));
     response.mesh = publisher_->detached_message(part, state->stamp);
-    return facets_text(part.triangles.size()) + " of " +
-           std::to_string(publisher_->totals().facets);
+    return facets_text(part.triangles.size()) + " of " + std::to_string(publisher_->facets());
   });
   return true;
 }

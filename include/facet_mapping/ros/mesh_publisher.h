@@ -66,7 +66,7 @@ class MeshPublisher {
   MeshStatePtr current() const;
   /// At least the facets of current() whose centroid lies in the box (map frame).
   MeshStatePtr current_within(const Eigen::AlignedBox3d& box) const;
-  bool has_facets() const;
+  std::size_t facets() const;
   MeshTotals totals() const;
   FrozenStats frozen() const;
   /// Stamp of the present state; zero before the first.
