@@ -3,6 +3,7 @@
 #include "facet_mapping/mapping/chunked_mesh.h"
 
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -82,6 +83,11 @@ class ChunkCutter {
   std::map<ChunkKey, Draft> drafts_;
 };
 
+template <typename Value>
+std::size_t bytes_of(const std::vector<Value>& values) {
+  return values.capacity() * sizeof(Value);
+}
+
 bool same_content(const MeshChunk& a, const MeshChunk& b) {
   return a.vertices == b.vertices && a.vertex_ids == b.vertex_ids && a.triangles == b.triangles &&
          a.labels == b.labels && a.confidence == b.confidence && a.views == b.views;
@@ -113,6 +119,20 @@ void check_chunk(const MeshChunk& chunk) {
 
 }  // namespace
 
+std::size_t MeshChunk::bytes() const {
+  return sizeof(MeshChunk) + bytes_of(vertices) + bytes_of(vertex_ids) + bytes_of(triangles) +
+         bytes_of(labels) + bytes_of(confidence) + bytes_of(views);
+}
+
+bool operator==(const MeshChunk& a, const MeshChunk& b) {
+  return a.key == b.key && a.revision == b.revision && a.origin == b.origin && same_content(a, b);
+}
+
+Eigen::AlignedBox3d cell_of(const ChunkKey& key, double chunk_size_m) {
+  const Eigen::Vector3d corner(key[0], key[1], key[2]);
+  return {chunk_size_m * corner, chunk_size_m * (corner + Eigen::Vector3d::Ones())};
+}
+
 ChunkedMesh::ChunkedMesh(double chunk_size_m) : chunk_size_m_(chunk_size_m) {
   if (!(chunk_size_m > 0.0)) {
     throw std::invalid_argument("chunked mesh: chunk_size_m must be positive");
@@ -120,11 +140,15 @@ ChunkedMesh::ChunkedMesh(double chunk_size_m) : chunk_size_m_(chunk_size_m) {
 }
 
 ChunkDelta ChunkedMesh::update(const TriangleMesh& mesh,
-                               const std::vector<std::uint32_t>& vertex_ids) {
+                               const std::vector<std::uint32_t>& vertex_ids,
+                               const FreezeLine& line) {
   if (!vertex_ids.empty() && vertex_ids.size() != mesh.vertices.size()) {
     throw std::invalid_argument("chunked mesh: give one vertex id per vertex, or none");
   }
   std::map<ChunkKey, MeshChunk> next = ChunkCutter(mesh, vertex_ids, chunk_size_m_).take();
+  for (auto at = next.begin(); at != next.end();) {
+    at = is_final(at->first, line) ? next.erase(at) : std::next(at);
+  }
   ChunkDelta delta;
   for (auto& [key, chunk] : next) {
     const auto old = chunks_.find(key);
@@ -141,11 +165,43 @@ ChunkDelta ChunkedMesh::update(const TriangleMesh& mesh,
     }
   }
   chunks_ = std::move(next);
+  delta.frozen = freeze(line);
   return delta;
+}
+
+bool ChunkedMesh::is_final(const ChunkKey& key, const FreezeLine& line) const {
+  return frozen_.count(key) > 0 || is_outside_between(line_, line, cell_of(key, chunk_size_m_));
+}
+
+std::vector<MeshChunk> ChunkedMesh::freeze(const FreezeLine& line) {
+  line_ = line;
+  std::vector<MeshChunk> frozen;
+  for (auto at = chunks_.begin(); at != chunks_.end();) {
+    if (!line.is_outside(cell_of(at->first, chunk_size_m_))) {
+      ++at;
+      continue;
+    }
+    frozen_.insert(at->first);
+    last_revision_.erase(at->first);
+    frozen.push_back(std::move(at->second));
+    at = chunks_.erase(at);
+  }
+  return frozen;
+}
+
+std::size_t ChunkedMesh::bytes() const {
+  constexpr std::size_t kTreeNode = 64;  // of a set or map with small entries, on the heap
+  std::size_t bytes = kTreeNode * (frozen_.size() + last_revision_.size() + chunks_.size());
+  for (const auto& [key, chunk] : chunks_) {
+    bytes += chunk.bytes();
+  }
+  return bytes;
 }
 
 void ChunkedMesh::clear() {
   chunks_.clear();
+  frozen_.clear();
+  line_ = {};
 }
 
 TriangleMesh assemble(const std::vector<const MeshChunk*>& chunks) {

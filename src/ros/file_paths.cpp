@@ -80,6 +80,10 @@ std::string mesh_path(const std::string& path) {
   return expanded.string();
 }
 
+std::string folder_path(const std::string& path) {
+  return path.empty() ? "" : expand(path).string();
+}
+
 std::string label_file_path(const std::string& name_or_path) {
   const bool is_name = name_or_path.find_first_of("/.~") == std::string::npos;
   if (!is_name) {

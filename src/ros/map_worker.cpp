@@ -5,9 +5,19 @@
 #include <exception>
 #include <utility>
 
+#include <malloc.h>
+
 namespace facet_mapping {
 
 using Clock = std::chrono::steady_clock;
+
+namespace {
+
+std::size_t bytes_of(const PointFrame& frame) {
+  return frame.points.capacity() * sizeof(LabeledPoint);
+}
+
+}  // namespace
 
 MapWorker::MapWorker(LabelSet labels,
                      const MapConfig& config,
@@ -28,12 +38,22 @@ MapWorker::~MapWorker() {
 }
 
 bool MapWorker::push(PointFrame frame, std::string sensor, bool is_scan) {
+  return enqueue({std::move(frame), std::move(sensor), is_scan, nullptr});
+}
+
+bool MapWorker::correct(PoseCorrections corrections) {
+  Item item;
+  item.corrections = std::make_shared<const PoseCorrections>(std::move(corrections));
+  return enqueue(std::move(item));
+}
+
+bool MapWorker::enqueue(Item item) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (queue_.size() >= queue_size_ || stopping_) {
       return false;
     }
-    queue_.push_back({std::move(frame), std::move(sensor), is_scan});
+    queue_.push_back(std::move(item));
   }
   wake_.notify_one();
   return true;
@@ -54,6 +74,15 @@ std::size_t MapWorker::size() const {
   return queue_.size() + in_work_;
 }
 
+std::size_t MapWorker::bytes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::size_t bytes = bytes_in_work_;
+  for (const Item& item : queue_) {
+    bytes += bytes_of(item.frame);
+  }
+  return bytes;
+}
+
 void MapWorker::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -71,6 +100,9 @@ bool MapWorker::wait_for_frames(std::deque<Item>* frames, std::uint64_t* epoch) 
   wake_.wait_until(lock, next_update_, [this] { return stopping_; });
   frames->swap(queue_);
   in_work_ = frames->size();
+  for (const Item& item : *frames) {
+    bytes_in_work_ += bytes_of(item.frame);
+  }
   *epoch = epoch_;
   return !stopping_;
 }
@@ -89,6 +121,7 @@ void MapWorker::run() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       in_work_ = 0;
+      bytes_in_work_ = 0;
     }
   }
 }
@@ -107,10 +140,7 @@ void MapWorker::clean_scan(PointFrame* frame) {
 bool MapWorker::add_frames(std::deque<Item>* frames) {
   for (Item& item : *frames) {
     try {
-      if (item.is_scan) {
-        clean_scan(&item.frame);
-      }
-      callbacks_.on_frame(map_.add(item.frame, item.sensor));
+      take(&item);
     } catch (const std::invalid_argument& e) {
       callbacks_.on_error(e.what());
     }
@@ -118,16 +148,49 @@ bool MapWorker::add_frames(std::deque<Item>* frames) {
   return map_.pending() > 0;
 }
 
+void MapWorker::take(Item* item) {
+  if (item->corrections) {
+    const CorrectionReport report = corrector_.apply(*item->corrections, &map_);
+    if (callbacks_.on_correction) {
+      callbacks_.on_correction(report);
+    }
+    return;
+  }
+  if (item->is_scan) {
+    clean_scan(&item->frame);
+  }
+  callbacks_.on_frame(map_.add(item->frame, item->sensor));
+  corrector_.note(map_);
+  item->frame.points = {};  // the map has its own copy
+}
+
+MapUpdate MapWorker::describe_map() const {
+  MapUpdate update;
+  update.surface = map_.surface();
+  update.stats = map_.stats();
+  update.keyframes = map_.keyframes();
+  update.stamp = map_.last_stamp();
+  update.line = map_.freeze_line();
+  update.range_scale = map_.range_scale();
+  update.map_bytes = map_.bytes() + corrector_.bytes();
+  update.movable = std::make_shared<const std::map<KeyframeId, Keyframe>>(map_.movable_keyframes());
+  return update;
+}
+
 void MapWorker::integrate(std::deque<Item>* frames, std::uint64_t epoch) {
   if (epoch != map_epoch_) {
     map_.reset();
+    corrector_.clear();
     map_epoch_ = epoch;
   }
   const auto start = Clock::now();
   if (!add_frames(frames) || !map_.update()) {
     return;
   }
-  MapUpdate update{map_.surface(), map_.stats(), map_.keyframes(), map_.last_stamp(), 0.0};
+  if (map_.freeze_line().is_limited()) {
+    malloc_trim(0);  // what the map forgot goes back to the system
+  }
+  MapUpdate update = describe_map();
   update.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::lock_guard<std::mutex> publish_lock(publish_mutex_);
   bool is_current = false;

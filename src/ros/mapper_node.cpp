@@ -3,13 +3,17 @@
 #include "facet_mapping/ros/mapper_node.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "facet_mapping/ros/cloud_conversions.h"
+#include "facet_mapping/ros/file_paths.h"
 #include "facet_mapping/ros/mesh_stats.h"
 #include "facet_mapping/ros/node_setup.h"
+#include "facet_mapping/ros/process_memory.h"
 #include "facet_mapping/ros/service_status.h"
 
 namespace facet_mapping {
@@ -37,19 +41,35 @@ MapperNode::MapperNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
       diagnostics_(nh, private_nh),
       tf_listener_(tf_buffer_, nh),
       transforms_(nh, &tf_buffer_, config_.pose, &diagnostics_),
-      publisher_(private_nh, config_.pose.map_frame, config_.output, labels_, config_.label_file),
+      publisher_(private_nh,
+                 config_.pose.map_frame,
+                 config_.output,
+                 labels_,
+                 config_.label_file,
+                 folder_path(config_.archive_folder),
+                 [this](const std::string& problem) {
+                   diagnostics_.complain("archive of frozen chunks", problem);
+                 }),
       services_(private_nh, &publisher_, &tf_buffer_, kHowToGetAMesh),
-      worker_(labels_,
-              config_.map,
-              cloud_config(config_),
-              static_cast<std::size_t>(config_.queue_size),
-              config_.update_period_s,
-              {[this](const FrameReport& report) { note_frame(report); },
-               [this](const CloudReport& report) { note_cloud(report); },
-               [this](MapUpdate update) { publish_update(std::move(update)); },
-               [this](const std::string& error) {
-                 diagnostics_.complain("map update failed", error);
-               }}) {
+      keyframe_path_(private_nh, config_.pose.map_frame),
+      worker_(
+          labels_,
+          config_.map,
+          cloud_config(config_),
+          static_cast<std::size_t>(config_.queue_size),
+          config_.update_period_s,
+          {[this](const FrameReport& report) { note_frame(report); },
+           [this](const CloudReport& report) { note_cloud(report); },
+           [this](MapUpdate update) { publish_update(std::move(update)); },
+           [this](const std::string& error) { diagnostics_.complain("map update failed", error); },
+           [this](const CorrectionReport& report) { corrected_poses_.report(report); }}),
+      corrected_poses_(
+          nh,
+          config_.pose.map_frame,
+          config_.corrected_frame,
+          &tf_buffer_,
+          &diagnostics_,
+          [this](PoseCorrections poses) { return worker_.correct(std::move(poses)); }) {
   stats_pub_ = private_nh.advertise<MeshStats>("stats", kStatsQueueSize);
   stats_timer_ = nh.createWallTimer(ros::WallDuration(kStatsPeriodS),
                                     [this](const ros::WallTimerEvent&) { publish_stats(); });
@@ -66,6 +86,7 @@ MapperNode::MapperNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
           receive(resolved, cloud);
         }));
   }
+  bytes_at_start_ = process_memory().own();
 }
 
 MapperNode::~MapperNode() {
@@ -87,6 +108,7 @@ void MapperNode::receive(const std::string& topic, const sensor_msgs::PointCloud
       diagnostics_.complain("empty cloud", "'" + topic + "': a cloud without points was ignored");
       return;
     }
+    corrected_poses_.note_sensor(topic, cloud->header.frame_id);
     const bool is_scan = !has_label_field(*cloud);
     transforms_.push(cloud->header.frame_id,
                      cloud->header.stamp,
@@ -129,6 +151,7 @@ void MapperNode::enqueue(const std::string& topic, bool is_scan, PointFrame fram
 void MapperNode::forget_everything() {
   worker_.reset([this] {
     publisher_.reset(ros::Time::now());
+    keyframe_path_.publish(std::make_shared<const std::map<KeyframeId, Keyframe>>());
     const std::lock_guard<std::mutex> lock(update_mutex_);
     last_update_ = {};
   });
@@ -178,40 +201,63 @@ void MapperNode::publish_update(MapUpdate update) {
   state->mesh = std::move(update.surface.mesh);
   state->vertex_ids = std::move(update.surface.vertex_ids);
   state->stamp = ros::Time(std::max(0.0, update.stamp));
-  publisher_.publish(state);
-  diagnostics_.count("updates");
-  diagnostics_.set("seconds of the last update", update.seconds);
-  diagnostics_.set("facets", static_cast<double>(state->mesh.triangles.size()));
+  state->line = update.line;
+  publisher_.publish(std::move(state));
+  keyframe_path_.publish(update.movable);
+  note_update(update);
   update.surface = {};
   const std::lock_guard<std::mutex> lock(update_mutex_);
   last_update_ = std::move(update);
+}
+
+void MapperNode::note_update(const MapUpdate& update) {
+  diagnostics_.count("updates");
+  diagnostics_.set("seconds of the last update", update.seconds);
+  diagnostics_.set("facets", static_cast<double>(publisher_.facets()));
+  diagnostics_.set("frozen chunks", static_cast<double>(publisher_.frozen().chunks));
+  if (update.range_scale < 1.0) {
+    std::ostringstream text;
+    text << std::setprecision(3) << "the map has reached memory_budget_mib ("
+         << config_.map.memory_budget_mb << " MiB), so that its ranges shrink: points farther than "
+         << update.range_scale * config_.map.max_range_m
+         << " m are dropped; raise memory_budget_mib, thin the points or raise "
+            "keyframe_translation_m";
+    diagnostics_.complain("memory budget", text.str());
+  }
 }
 
 void MapperNode::publish_stats() {
   if (stats_pub_.getNumSubscribers() == 0) {
     return;
   }
-  const MeshStatePtr state = publisher_.current();
-  if (state != measured_) {
-    stats_ = MeshStats();
-    measured_ = state;
-    if (state) {
-      fill_mesh_stats(state->mesh, &stats_);
-      stats_.header.stamp = state->stamp;
-    }
+  MeshStats stats;
+  fill_mesh_stats(publisher_.totals(), &stats);
+  fill_stats(&stats);
+  stats_pub_.publish(stats);
+}
+
+void MapperNode::fill_stats(MeshStats* stats) const {
+  stats->header.stamp = publisher_.stamp();
+  stats->header.frame_id = config_.pose.map_frame;
+  stats->map_id = publisher_.map_id();
+  stats->sequence = publisher_.sequence();
+  stats->pending = static_cast<std::uint32_t>(worker_.size() + transforms_.size());
+  const FrozenStats frozen = publisher_.frozen();
+  stats->frozen_chunks = frozen.chunks;
+  stats->frozen_facets = frozen.facets;
+  const ProcessMemory memory = process_memory();
+  stats->resident_bytes = memory.resident;
+  stats->bytes = bytes_at_start_ + memory.shared + publisher_.bytes() + worker_.bytes();
+  const std::lock_guard<std::mutex> lock(update_mutex_);
+  stats->bytes += last_update_.map_bytes;
+  stats->cells = last_update_.stats.cells;
+  stats->rays = last_update_.stats.rays;
+  stats->keyframes = static_cast<std::uint32_t>(last_update_.keyframes);
+  stats->range_scale = last_update_.range_scale;
+  stats->update_seconds = last_update_.seconds;
+  if (last_update_.movable) {
+    stats->movable_keyframes = static_cast<std::uint32_t>(last_update_.movable->size());
   }
-  stats_.header.frame_id = config_.pose.map_frame;
-  stats_.map_id = publisher_.map_id();
-  stats_.sequence = publisher_.sequence();
-  stats_.pending = static_cast<std::uint32_t>(worker_.size() + transforms_.size());
-  {
-    const std::lock_guard<std::mutex> lock(update_mutex_);
-    stats_.cells = last_update_.stats.cells;
-    stats_.rays = last_update_.stats.rays;
-    stats_.keyframes = static_cast<std::uint32_t>(last_update_.keyframes);
-    stats_.update_seconds = last_update_.seconds;
-  }
-  stats_pub_.publish(stats_);
 }
 
 }  // namespace facet_mapping

@@ -99,8 +99,11 @@ void add_map(ParameterTable* table, MapConfig* c) {
   table->add_choice<DynamicPolicy>(
       "dynamic_classes",
       &c->dynamic,
-      {{"keep", DynamicPolicy::kKeep}, {"drop", DynamicPolicy::kDrop}},
-      "points of `dynamic` classes (cars, persons): part of the map, or ignored");
+      {{"keep", DynamicPolicy::kKeep},
+       {"carve", DynamicPolicy::kCarve},
+       {"drop", DynamicPolicy::kDrop}},
+      "points of `dynamic` classes (cars, persons): part of the map; rays that only carve; or "
+      "ignored");
   table->add("min_range_m", &c->min_range_m, "m", "nearer points are dropped", kNotNegative);
   table->add("max_range_m", &c->max_range_m, "m", "farther points are dropped", kPositive);
   table->add("keyframe_translation_m",
@@ -113,8 +116,25 @@ void add_map(ParameterTable* table, MapConfig* c) {
              "deg",
              "... or this much rotation",
              {0.0, 180.0});
+  table->add(
+      "frozen_beyond_m",
+      &c->frozen_beyond_m,
+      "m",
+      "the mesh farther from the newest keyframe is final and goes to the disk, its rays are "
+      "forgotten; at least max_range_m; 0: never",
+      kNotNegative);
+  table->add("memory_budget_mib",
+             &c->memory_budget_mb,
+             "MiB",
+             "above this memory of the map max_range_m and frozen_beyond_m shrink; 0: no limit",
+             kNotNegative);
   table->add_check([c]() -> std::string {
     return c->min_range_m < c->max_range_m ? "" : "'min_range_m' must be below 'max_range_m'";
+  });
+  table->add_check([c]() -> std::string {
+    return c->frozen_beyond_m == 0.0 || c->frozen_beyond_m >= c->max_range_m
+               ? ""
+               : "'frozen_beyond_m' must be 0 (never) or at least 'max_range_m'";
   });
 }
 
@@ -138,6 +158,15 @@ ParameterTable parameter_table(MapperNodeConfig* config) {
             "least wall time between two updates of the surface",
             kNotNegative);
   add_map(&table, &config->map);
+  table.add(
+      "archive_folder",
+      &config->archive_folder,
+      "frozen chunks are kept in a folder made here and removed at the end; empty: the system's "
+      "temporary folder");
+  table.add("corrected_frame",
+            &config->corrected_frame,
+            "frame whose poses come on keyframe_poses (base_link, say), attached to the sensors by "
+            "tf; empty: the sensor's own frame");
   add_cloud(&table, &config->cloud);
   add_carving(&table, &config->map.carving);
   add_output(&table, &config->output);

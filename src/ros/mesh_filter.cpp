@@ -32,6 +32,17 @@ void validate(const BoxRegion& region) {
   }
 }
 
+Eigen::AlignedBox3d box_in_map(const BoxRegion& region, const Eigen::Isometry3d& region_from_map) {
+  const Eigen::AlignedBox3d box(to_eigen(region.min), to_eigen(region.max));
+  const Eigen::Isometry3d map_from_region = region_from_map.inverse(Eigen::Isometry);
+  Eigen::AlignedBox3d around;
+  for (int corner = 0; corner < 8; ++corner) {
+    around.extend(map_from_region *
+                  box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
+  return around;
+}
+
 TriangleMesh filter_mesh(const TriangleMesh& mesh,
                          const BoxRegion& region,
                          const Eigen::Isometry3d& region_from_map,

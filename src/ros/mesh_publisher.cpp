@@ -3,6 +3,7 @@
 #include "facet_mapping/ros/mesh_publisher.h"
 
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/single_subscriber_publisher.h>
@@ -19,14 +20,35 @@ constexpr std::uint32_t kPaletteVersion = 1;  // the class list of a node never 
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
+bool everything(const ChunkKey& /*key*/) {
+  return true;
+}
+
+std::size_t bytes_of(const MeshState& state) {
+  const TriangleMesh& mesh = state.mesh;
+  return mesh.vertices.capacity() * sizeof(mesh.vertices[0]) +
+         mesh.triangles.capacity() * sizeof(mesh.triangles[0]) +
+         mesh.labels.capacity() * sizeof(mesh.labels[0]) +
+         mesh.confidence.capacity() * sizeof(mesh.confidence[0]) +
+         mesh.views.capacity() * sizeof(mesh.views[0]) +
+         state.vertex_ids.capacity() * sizeof(state.vertex_ids[0]);
+}
+
 }  // namespace
 
 MeshPublisher::MeshPublisher(ros::NodeHandle private_nh,
                              const std::string& frame_id,
                              const MeshOutput& config,
                              const LabelSet& labels,
-                             const std::string& label_source)
-    : frame_id_(frame_id), config_(config), labels_(labels), chunks_(config.chunk_size_m) {
+                             const std::string& label_source,
+                             const std::string& archive_folder,
+                             std::function<void(const std::string&)> on_problem)
+    : frame_id_(frame_id),
+      config_(config),
+      labels_(labels),
+      on_problem_(std::move(on_problem)),
+      chunks_(config.chunk_size_m),
+      archive_(archive_folder, on_problem_) {
   new_map_id();
   advertise(std::move(private_nh));
   ClassPalette palette = palette_message(labels_, label_source, kPaletteVersion);
@@ -75,35 +97,54 @@ void MeshPublisher::publish(MeshStatePtr state) {
   state_ = std::move(state);
   stamp_ = state_->stamp;
   ++sequence_;
+  in_chunks_ = in_chunks_ || state_->line.is_limited();
   // Whoever listens has all earlier deltas, so the chunks are only stale while nobody does.
-  if (mesh_pub_.getNumSubscribers() == 0 || chunks_stale_) {
-    chunks_stale_ = true;
-  } else {
-    const ChunkDelta delta = chunks_.update(state_->mesh, state_->vertex_ids);
-    LabeledMesh message = envelope();
-    for (const MeshChunk& chunk : delta.changed) {
-      message.chunks.push_back(chunk_to_message(chunk));
+  const bool has_listeners = mesh_pub_.getNumSubscribers() > 0 && !chunks_stale_;
+  chunks_stale_ = !has_listeners && !in_chunks_;
+  if (!chunks_stale_) {
+    ChunkDelta delta = chunks_.update(state_->mesh, state_->vertex_ids, state_->line);
+    if (has_listeners) {
+      mesh_pub_.publish(delta_message(delta));
     }
-    for (const ChunkKey& key : delta.removed) {
-      message.removed_keys.insert(message.removed_keys.end(), key.begin(), key.end());
-    }
-    mesh_pub_.publish(message);
+    archive_.add(std::move(delta.frozen));
+  }
+  if (in_chunks_) {
+    auto light = std::make_shared<MeshState>();
+    light->stamp = state_->stamp;
+    light->line = state_->line;
+    state_ = std::move(light);
   }
   publish_displays_locked();
 }
 
+LabeledMesh MeshPublisher::delta_message(const ChunkDelta& delta) const {
+  LabeledMesh message = envelope();
+  for (const MeshChunk& chunk : delta.changed) {
+    message.chunks.push_back(chunk_to_message(chunk));
+  }
+  for (const ChunkKey& key : delta.removed) {
+    message.removed_keys.insert(message.removed_keys.end(), key.begin(), key.end());
+  }
+  return message;
+}
+
 void MeshPublisher::publish_displays_locked() {
-  const TriangleMesh empty;
-  const TriangleMesh& mesh = state_ ? state_->mesh : empty;
+  if (marker_pub_.getNumSubscribers() == 0 && points_pub_.getNumSubscribers() == 0) {
+    return;
+  }
+  const MeshStatePtr state = state_for_display_locked();
   if (marker_pub_.getNumSubscribers() > 0) {
-    const auto markers = markers_from_mesh(
-        mesh, labels_, header(), static_cast<std::size_t>(config_.marker_max_triangles), &shown_);
+    const auto markers = markers_from_mesh(state->mesh,
+                                           labels_,
+                                           header(),
+                                           static_cast<std::size_t>(config_.marker_max_triangles),
+                                           &shown_);
     if (!markers.markers.empty()) {
       marker_pub_.publish(markers);
     }
   }
   if (points_pub_.getNumSubscribers() > 0) {
-    points_pub_.publish(cloud_from_mesh(mesh, labels_, header()));
+    points_pub_.publish(cloud_from_mesh(state->mesh, labels_, header()));
   }
 }
 
@@ -113,6 +154,8 @@ void MeshPublisher::reset(const ros::Time& stamp) {
   stamp_ = stamp;
   chunks_.clear();
   chunks_stale_ = false;
+  archive_.clear();
+  in_chunks_ = false;
   new_map_id();
   LabeledMesh message = envelope();
   message.full = 1;
@@ -122,7 +165,111 @@ void MeshPublisher::reset(const ros::Time& stamp) {
 
 MeshStatePtr MeshPublisher::current() const {
   const Lock lock(mutex_);
-  return state_;
+  return complete_or_throw(everything);
+}
+
+MeshStatePtr MeshPublisher::current_within(const Eigen::AlignedBox3d& box) const {
+  const Lock lock(mutex_);
+  return complete_or_throw(
+      [&](const ChunkKey& key) { return box.intersects(cell_of(key, config_.chunk_size_m)); });
+}
+
+MeshStatePtr MeshPublisher::complete_or_throw(const ChunkArchive::Wanted& wanted) const {
+  std::string problem;
+  MeshStatePtr state = state_within_locked(wanted, &problem);
+  if (!problem.empty()) {
+    throw std::runtime_error(problem);
+  }
+  return state;
+}
+
+MeshStatePtr MeshPublisher::state_for_display_locked() const {
+  std::string problem;
+  MeshStatePtr state = state_within_locked(everything, &problem);
+  report(problem);
+  return state ? state : std::make_shared<MeshState>();
+}
+
+MeshStatePtr MeshPublisher::state_within_locked(const ChunkArchive::Wanted& wanted,
+                                                std::string* problem) const {
+  if (!in_chunks_) {
+    return state_;
+  }
+  const std::vector<MeshChunk> archived = archived_locked(wanted, problem);
+  std::vector<const MeshChunk*> chunks;
+  for (const MeshChunk& chunk : archived) {
+    chunks.push_back(&chunk);
+  }
+  for (const auto& [key, chunk] : chunks_.chunks()) {
+    if (wanted(key)) {
+      chunks.push_back(&chunk);
+    }
+  }
+  auto state = std::make_shared<MeshState>();
+  state->mesh = assemble(chunks);
+  state->stamp = stamp_;
+  return state;
+}
+
+std::vector<MeshChunk> MeshPublisher::archived_locked(const ChunkArchive::Wanted& wanted,
+                                                      std::string* problem) const {
+  std::vector<MeshChunk> chunks;
+  try {
+    archive_.for_each(wanted, [&](const MeshChunk& chunk) { chunks.push_back(chunk); });
+  } catch (const std::runtime_error& e) {
+    *problem = e.what();
+  }
+  return chunks;
+}
+
+void MeshPublisher::report(const std::string& problem) const {
+  if (!problem.empty() && on_problem_) {
+    on_problem_(problem);
+  }
+}
+
+std::size_t MeshPublisher::facets() const {
+  const Lock lock(mutex_);
+  if (!in_chunks_) {
+    return state_ ? state_->mesh.triangles.size() : 0;
+  }
+  std::size_t facets = archive_.totals().facets;
+  for (const auto& [key, chunk] : chunks_.chunks()) {
+    facets += chunk.triangles.size();
+  }
+  return facets;
+}
+
+MeshTotals MeshPublisher::totals() const {
+  const Lock lock(mutex_);
+  if (!in_chunks_) {
+    return state_ ? totals_of(state_->mesh) : MeshTotals();
+  }
+  MeshTotals totals = archive_.totals();
+  for (const auto& [key, chunk] : chunks_.chunks()) {
+    totals += totals_of(chunk);
+  }
+  return totals;
+}
+
+FrozenStats MeshPublisher::frozen() const {
+  const Lock lock(mutex_);
+  return {
+      archive_.size(), archive_.totals().facets, archive_.unwritten(), archive_.bytes_on_disk()};
+}
+
+std::size_t MeshPublisher::bytes() const {
+  const Lock lock(mutex_);
+  std::size_t bytes = chunks_.bytes() + archive_.bytes();
+  if (state_) {
+    bytes += bytes_of(*state_);
+  }
+  return bytes;
+}
+
+ros::Time MeshPublisher::stamp() const {
+  const Lock lock(mutex_);
+  return stamp_;
 }
 
 std::uint32_t MeshPublisher::sequence() const {
@@ -150,6 +297,11 @@ LabeledMesh MeshPublisher::full_message_locked() {
     for (const auto& [key, chunk] : chunks_.chunks()) {
       message.chunks.push_back(chunk_to_message(chunk));
     }
+    std::string problem;
+    for (const MeshChunk& chunk : archived_locked(everything, &problem)) {
+      message.chunks.push_back(chunk_to_message(chunk));
+    }
+    report(problem);  // the rest is better than nothing
   }
   return message;
 }
@@ -182,10 +334,11 @@ void MeshPublisher::on_mesh_subscriber(const ros::SingleSubscriberPublisher& sub
 
 void MeshPublisher::on_marker_subscriber(const ros::SingleSubscriberPublisher& subscriber) {
   const Lock lock(mutex_);
-  if (!state_ || state_->mesh.empty()) {
+  const MeshStatePtr state = state_for_display_locked();
+  if (state->mesh.empty()) {
     return;
   }
-  subscriber.publish(markers_from_mesh(state_->mesh,
+  subscriber.publish(markers_from_mesh(state->mesh,
                                        labels_,
                                        header(),
                                        static_cast<std::size_t>(config_.marker_max_triangles),
@@ -195,7 +348,7 @@ void MeshPublisher::on_marker_subscriber(const ros::SingleSubscriberPublisher& s
 void MeshPublisher::on_points_subscriber(const ros::SingleSubscriberPublisher& subscriber) {
   const Lock lock(mutex_);
   if (state_) {
-    subscriber.publish(cloud_from_mesh(state_->mesh, labels_, header()));
+    subscriber.publish(cloud_from_mesh(state_for_display_locked()->mesh, labels_, header()));
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/mesh_services.h"
 
+#include <memory>
 #include <stdexcept>
 
 #include <tf2_eigen/tf2_eigen.h>
@@ -20,6 +21,14 @@ std::string facets_text(std::size_t facets) {
 
 std::vector<Label> to_labels(const std::vector<std::uint16_t>& classes) {
   return {classes.begin(), classes.end()};
+}
+
+std::size_t count_facets(const LabeledMesh& message) {
+  std::size_t facets = 0;
+  for (const LabeledMeshChunk& chunk : message.chunks) {
+    facets += chunk.triangles.size() / 3;
+  }
+  return facets;
 }
 
 /// Writes the file; what the disk refuses is an IO_ERROR.
@@ -42,12 +51,22 @@ MeshServices::MeshServices(ros::NodeHandle private_nh,
   save_mesh_server_ = private_nh.advertiseService("save_mesh", &MeshServices::save_mesh, this);
 }
 
-MeshStatePtr MeshServices::require_mesh() const {
-  MeshStatePtr state = publisher_->current();
-  if (!state || state->mesh.empty()) {
+void MeshServices::require_mesh() const {
+  if (publisher_->facets() == 0) {
     throw ServiceError(Status::NOT_READY, "there is no mesh yet: " + how_to_get_one_);
   }
-  return state;
+}
+
+MeshStatePtr MeshServices::mesh_within(const BoxRegion& region,
+                                       const Eigen::Isometry3d& region_from_map) const {
+  try {
+    const MeshStatePtr state =
+        is_everywhere(region) ? publisher_->current()
+                              : publisher_->current_within(box_in_map(region, region_from_map));
+    return state ? state : std::make_shared<MeshState>();  // a reset may have come in between
+  } catch (const std::runtime_error& e) {
+    throw ServiceError(Status::IO_ERROR, e.what());
+  }
 }
 
 Eigen::Isometry3d MeshServices::region_from_map(const BoxRegion& region) const {
@@ -67,16 +86,17 @@ Eigen::Isometry3d MeshServices::region_from_map(const BoxRegion& region) const {
 bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& response) {
   response.status = answer([&] {
     validate(request.region);
-    const MeshStatePtr state = require_mesh();
+    require_mesh();
     if (is_everywhere(request.region) && request.classes.empty()) {
       response.mesh = publisher_->full_message();
-      return facets_text(state->mesh.triangles.size());
+      return facets_text(count_facets(response.mesh));
     }
-    const TriangleMesh part = filter_mesh(
-        state->mesh, request.region, region_from_map(request.region), to_labels(request.classes));
+    const Eigen::Isometry3d region_from_map = this->region_from_map(request.region);
+    const MeshStatePtr state = mesh_within(request.region, region_from_map);
+    const TriangleMesh part =
+        filter_mesh(state->mesh, request.region, region_from_map, to_labels(request.classes));
     response.mesh = publisher_->detached_message(part, state->stamp);
-    return facets_text(part.triangles.size()) + " of " +
-           std::to_string(state->mesh.triangles.size());
+    return facets_text(part.triangles.size()) + " of " + std::to_string(publisher_->facets());
   });
   return true;
 }
@@ -84,7 +104,8 @@ bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& respon
 bool MeshServices::save_mesh(SaveMesh::Request& request, SaveMesh::Response& response) {
   response.status = answer([&] {
     const std::string path = mesh_path(request.path);
-    const MeshStatePtr state = require_mesh();
+    require_mesh();
+    const MeshStatePtr state = mesh_within(BoxRegion(), Eigen::Isometry3d::Identity());
     const TriangleMesh part = filter_mesh(
         state->mesh, BoxRegion(), Eigen::Isometry3d::Identity(), to_labels(request.classes));
     if (part.empty()) {

@@ -2,30 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/mesh_stats.h"
 
-#include <map>
-
 namespace facet_mapping {
 
-void fill_mesh_stats(const TriangleMesh& mesh, MeshStats* stats) {
-  std::map<Label, double> areas;
-  double confidence = 0.0;
-  std::size_t labelled = 0;
-  stats->facets = mesh.triangles.size();
-  stats->vertices = mesh.vertices.size();
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const double area = 0.5 * facet_cross(mesh, f).norm();
-    const Label label = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
-    areas[label] += area;
-    stats->area += area;
-    if (label != kUnlabelled && !mesh.confidence.empty()) {
-      confidence += static_cast<double>(mesh.confidence[f]);
-      ++labelled;
-    }
-  }
-  stats->mean_confidence = labelled == 0 ? 0.0 : confidence / static_cast<double>(labelled);
-  for (const auto& [label, area] : areas) {
+void fill_mesh_stats(const MeshTotals& totals, MeshStats* stats) {
+  stats->facets = totals.facets;
+  stats->vertices = totals.vertices;
+  stats->mean_confidence =
+      totals.rated == 0 ? 0.0 : totals.confidence / static_cast<double>(totals.rated);
+  for (const auto& [label, area] : totals.areas) {
     stats->class_ids.push_back(label);
     stats->class_areas.push_back(area);
+    stats->area += area;
   }
 }
 

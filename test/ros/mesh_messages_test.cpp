@@ -249,7 +249,7 @@ TEST(Filter, ImpossibleRegionsAreRefused) {
 TEST(Stats, AreasAddUp) {
   const TriangleMesh mesh = labelled_sphere();
   MeshStats stats;
-  fill_mesh_stats(mesh, &stats);
+  fill_mesh_stats(totals_of(mesh), &stats);
   EXPECT_EQ(stats.facets, mesh.triangles.size());
   EXPECT_EQ(stats.class_ids, (std::vector<std::uint16_t>{0, 1}));
   EXPECT_NEAR(stats.area, 4.0 * M_PI * 25.0, 0.05 * stats.area);

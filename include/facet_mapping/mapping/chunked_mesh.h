@@ -4,13 +4,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/mapping/freeze_line.h"
 
 namespace facet_mapping {
 
@@ -28,11 +31,21 @@ struct MeshChunk {
   std::vector<Label> labels;                         ///< per triangle, or empty
   std::vector<std::uint8_t> confidence;              ///< per triangle 0..255 = 0..1, or empty
   std::vector<std::uint16_t> views;                  ///< per triangle, or empty
+
+  std::size_t bytes() const;  ///< of memory held
 };
+
+bool operator==(const MeshChunk& a, const MeshChunk& b);
+
+/// The grid cell of a chunk, map frame, metres.
+Eigen::AlignedBox3d cell_of(const ChunkKey& key, double chunk_size_m);
 
 struct ChunkDelta {
   std::vector<MeshChunk> changed;
   std::vector<ChunkKey> removed;
+  /// Chunks that are final and not kept any more: their new owner keeps them. Those that changed at
+  /// the last moment stand in `changed`, too.
+  std::vector<MeshChunk> frozen;
 };
 
 class ChunkedMesh {
@@ -42,14 +55,29 @@ class ChunkedMesh {
 
   /// Takes a new state of the whole mesh and says which chunks differ from the last state.
   /// `vertex_ids`: one per vertex, or empty for 0, 1, 2, ...
-  ChunkDelta update(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertex_ids = {});
+  /// Chunks whose cells lie entirely outside `line` freeze: later updates neither change nor remove
+  /// them. Where the line has left an empty cell behind, facets of later states are ignored until
+  /// the line comes back, since the surface there is only that of forgotten evidence.
+  ChunkDelta update(const TriangleMesh& mesh,
+                    const std::vector<std::uint32_t>& vertex_ids = {},
+                    const FreezeLine& line = {});
 
+  /// The chunks that can still change.
   const std::map<ChunkKey, MeshChunk>& chunks() const { return chunks_; }
+  /// The chunks that cannot.
+  const std::set<ChunkKey>& frozen() const { return frozen_; }
+  double chunk_size_m() const { return chunk_size_m_; }
+  std::size_t bytes() const;  ///< of memory held
   void clear();
 
  private:
+  bool is_final(const ChunkKey& key, const FreezeLine& line) const;
+  std::vector<MeshChunk> freeze(const FreezeLine& line);
+
   double chunk_size_m_;
+  FreezeLine line_;
   std::map<ChunkKey, MeshChunk> chunks_;
+  std::set<ChunkKey> frozen_;
   std::map<ChunkKey, std::uint32_t> last_revision_;
 };
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "facet_mapping/carving/space_carver.h"
 #include "facet_mapping/geometry/camera.h"
 #include "facet_mapping/labels/label_set.h"
+#include "facet_mapping/mapping/freeze_line.h"
 #include "facet_mapping/points/labeled_point.h"
 
 namespace facet_mapping {
@@ -34,12 +34,6 @@ struct MapConfig {
   double frozen_beyond_m = 0.0;   ///< the surface farther from the newest keyframe is final and
                                   ///< its rays are forgotten; 0 = never
   double memory_budget_mb = 0.0;  ///< MiB; above it the ranges shrink; 0 = no limit
-};
-
-/// The surface outside this ball does not change any more.
-struct FreezeLine {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of the newest keyframe, map frame, metres
-  double radius_m = std::numeric_limits<double>::infinity();
 };
 
 /// Of one frame in the map: its place in the order of arrival, never used twice until reset().

@@ -13,6 +13,9 @@ namespace facet_mapping {
 /// std::invalid_argument on an empty path, a folder or another extension.
 std::string mesh_path(const std::string& path);
 
+/// Absolute path of a folder, by the rules above; "" stays "".
+std::string folder_path(const std::string& path);
+
 /// A label file: a path as above, or the bare name of one in the package's config/labels. Throws
 /// std::invalid_argument with the names that exist.
 std::string label_file_path(const std::string& name_or_path);

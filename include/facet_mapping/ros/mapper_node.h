@@ -15,6 +15,8 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "facet_mapping/ros/corrected_poses.h"
+#include "facet_mapping/ros/keyframe_path.h"
 #include "facet_mapping/ros/map_worker.h"
 #include "facet_mapping/ros/mesh_publisher.h"
 #include "facet_mapping/ros/mesh_services.h"
@@ -43,10 +45,12 @@ class MapperNode {
   void forget_everything();
   bool reset(Reset::Request& request, Reset::Response& response);
   void publish_stats();
+  void fill_stats(MeshStats* stats) const;
   // In the worker's thread:
   void note_frame(const FrameReport& report);
   void note_cloud(const CloudReport& report);
   void publish_update(MapUpdate update);
+  void note_update(const MapUpdate& update);
 
   Config config_;
   LabelSet labels_;
@@ -59,13 +63,14 @@ class MapperNode {
   MeshServices services_;
   ros::Publisher stats_pub_;
   ros::WallTimer stats_timer_;
-  MeshStatePtr measured_;  // the state that stats_ describes
-  MeshStats stats_;
-  std::mutex update_mutex_;
+  KeyframePath keyframe_path_;
+  std::uint64_t bytes_at_start_ = 0;  // of the process's own memory
+  mutable std::mutex update_mutex_;
   MapUpdate last_update_;  // without its surface
   ros::ServiceServer reset_server_;
   std::vector<ros::Subscriber> subscribers_;
   MapWorker worker_;
+  CorrectedPoses corrected_poses_;
 };
 
 }  // namespace facet_mapping

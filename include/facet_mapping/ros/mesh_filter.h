@@ -19,6 +19,9 @@ bool is_everywhere(const BoxRegion& region);
 /// Throws std::invalid_argument if a bound is not finite or min lies above max.
 void validate(const BoxRegion& region);
 
+/// The box along the map's axes around the region.
+Eigen::AlignedBox3d box_in_map(const BoxRegion& region, const Eigen::Isometry3d& region_from_map);
+
 /// The facets whose centroid lies inside the box (unless it is_everywhere) and whose class is in
 /// `classes` (unless empty). `region_from_map` leads into the box's axes.
 TriangleMesh filter_mesh(const TriangleMesh& mesh,

@@ -26,7 +26,8 @@ class MeshServices {
  private:
   bool get_mesh(GetMesh::Request& request, GetMesh::Response& response);
   bool save_mesh(SaveMesh::Request& request, SaveMesh::Response& response);
-  MeshStatePtr require_mesh() const;
+  void require_mesh() const;
+  MeshStatePtr mesh_within(const BoxRegion& region, const Eigen::Isometry3d& region_from_map) const;
   Eigen::Isometry3d region_from_map(const BoxRegion& region) const;
 
   MeshPublisher* publisher_;

@@ -6,11 +6,11 @@
 
 #include <facet_mapping/MeshStats.h>
 
-#include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/mapping/mesh_totals.h"
 
 namespace facet_mapping {
 
 /// Fills facets, vertices, area, mean_confidence, class_ids and class_areas.
-void fill_mesh_stats(const TriangleMesh& mesh, MeshStats* stats);
+void fill_mesh_stats(const MeshTotals& totals, MeshStats* stats);
 
 }  // namespace facet_mapping

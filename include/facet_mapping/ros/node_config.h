@@ -50,6 +50,13 @@ struct StereoPointsNodeConfig {
   StereoConfig stereo;
 };
 
+/// A map whose memory does not grow with the length of the drive.
+inline MapConfig bounded_map() {
+  MapConfig config;
+  config.frozen_beyond_m = 100.0;
+  return config;
+}
+
 struct MapperNodeConfig {
   std::string label_file = "cityscapes";
   std::vector<std::string> point_topics{"points"};
@@ -57,7 +64,9 @@ struct MapperNodeConfig {
   MeshOutput output;
   int queue_size = 500;          ///< frames that may wait for the map
   double update_period_s = 0.5;  ///< least time between two updates, wall time
-  MapConfig map;
+  std::string corrected_frame;   ///< whose poses come on keyframe_poses; "": the sensors' own
+  std::string archive_folder;    ///< "": the system's temporary folder
+  MapConfig map = bounded_map();
   CloudConfig cloud;  ///< cleaning of clouds without `label` (LiDAR); its range is that of the map
 };
 
