@@ -21,6 +21,12 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
              "rays",
              "graph_cut: most evidence that a cell can have",
              kPositive);
+  table->add("carving/neighbour_share",
+             &c->neighbour_share,
+             "",
+             "share of its neighbours' mean free-space evidence that a cell gets too: fewer curtains at "
+             "depth edges, more holes",
+             {0, 1});
   table->add("carving/free_space_threshold",
              &c->free_space_threshold,
              "rays",
@@ -29,7 +35,7 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
   table->add("carving/behind_distance_m",
              &c->behind_distance_m,
              "m",
-             "how far behind a point its class is evidence",
+             "how far behind a point it is evidence of matter and of its class",
              kNotNegative);
   table->add("carving/steiner_spacing_m",
              &c->steiner_spacing_m,
@@ -51,6 +57,11 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
              "m",
              "facets with a longer edge carry no class",
              kPositive);
+  table->add("carving/min_component_facets",
+             &c->min_component_facets,
+             "facets",
+             "closed parts of the surface with fewer are dropped; 0: none",
+             {0, 1000000});
   table->add("carving/min_point_spacing_m",
              &c->min_point_spacing_m,
              "m",
