@@ -13,10 +13,6 @@
 namespace facet_mapping::carving {
 namespace {
 
-bool is_free_by_count(const CellInfo& cell, Weight threshold) {
-  return cell.free >= threshold && cell.free > cell.labels.largest();
-}
-
 /// Cosine of the angle at which the circumsphere of a cell meets the plane of one of its facets,
 /// seen from the facet's side: large where the cell is flat and wide.
 double sphere_cosine(const Triangulation& triangulation, CellHandle cell, int facet) {
@@ -58,6 +54,19 @@ double facet_cost(const Triangulation& triangulation, CellHandle cell, int facet
   return 1.0 - std::min(phi, psi);
 }
 
+double free_evidence(CellHandle cell, double neighbour_share) {
+  double neighbours = 0.0;
+  for (int k = 0; k < 4 && neighbour_share > 0.0; ++k) {
+    neighbours += cell->neighbor(k)->info().free;
+  }
+  return cell->info().free + neighbour_share * neighbours / 4.0;
+}
+
+bool is_free_by_count(CellHandle cell, double neighbour_share, Weight threshold) {
+  const double free = free_evidence(cell, neighbour_share);
+  return free >= threshold && free > cell->info().labels.largest();
+}
+
 /// A minimum cut over a region of cells; what lies around it keeps its side.
 class CellCut {
  public:
@@ -93,7 +102,7 @@ class CellCut {
     constexpr double kMatterBias = 1.0;
     const CellInfo& info = cell->info();
     const double cap = config_.evidence_cap * kRayWeight;
-    double free = std::min<double>(info.free, cap);
+    double free = std::min<double>(free_evidence(cell, config_.neighbour_share), cap);
     double matter = std::min<double>(info.labels.sum(), cap) + kMatterBias;
     for (int k = 0; k < 4; ++k) {
       const CellInfo& other = cell->neighbor(k)->info();
@@ -148,7 +157,7 @@ std::vector<CellHandle> changed_region(Triangulation* triangulation, int rings) 
 void classify_cells(Triangulation* triangulation, const CarvingConfig& config) {
   constexpr int kRings = 3;  // farther than that a changed cell hardly ever turns another one
   const bool counts = config.extraction == Extraction::kCount;
-  const std::vector<CellHandle> region = changed_region(triangulation, counts ? 0 : kRings);
+  const std::vector<CellHandle> region = changed_region(triangulation, counts ? 1 : kRings);
   if (region.empty()) {
     return;
   }
@@ -156,7 +165,7 @@ void classify_cells(Triangulation* triangulation, const CarvingConfig& config) {
     const auto threshold =
         static_cast<Weight>(std::lround(std::max(1.0, config.free_space_threshold * kRayWeight)));
     for (const CellHandle cell : region) {
-      cell->info().is_free = is_free_by_count(cell->info(), threshold);
+      cell->info().is_free = is_free_by_count(cell, config.neighbour_share, threshold);
     }
   } else {
     CellCut(*triangulation, config, region).solve();

@@ -65,7 +65,7 @@ Label LabelEvidence::best() const {
   Label best = kUnlabelled;
   Weight most = 0;
   for (const auto& [label, weight] : weights_) {
-    if (weight > most) {
+    if (label != kUnlabelled && weight > most) {
       most = weight;
       best = label;
     }
@@ -78,6 +78,9 @@ float LabelEvidence::margin() const {
   Weight second = 0;
   double sum = 0.0;
   for (const auto& [label, weight] : weights_) {
+    if (label == kUnlabelled) {
+      continue;
+    }
     sum += weight;
     second = std::max(second, std::min(most, weight));
     most = std::max(most, weight);

@@ -21,7 +21,8 @@ constexpr Weight kRayWeight = 256;
 /// (soft visibility, Labatut et al. 2009).
 Weight soft_weight(double distance_m, double sigma_m);
 
-/// Weights of the few classes met in one place, in ascending class order.
+/// Weights of the few classes met in one place, in ascending class order. Points without a class
+/// count under kUnlabelled: they tell matter, but no class.
 class LabelEvidence {
  public:
   void add(Label label, Weight weight);
@@ -34,7 +35,7 @@ class LabelEvidence {
   Weight sum() const;
   /// The class with most evidence (the smaller id on a tie), kUnlabelled if there is none.
   Label best() const;
-  /// (best - second best) / sum, 0 without evidence.
+  /// (best - second best) / sum over the classes, 0 without evidence.
   float margin() const;
   const std::vector<std::pair<Label, Weight>>& weights() const { return weights_; }
   /// On the heap.

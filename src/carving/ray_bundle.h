@@ -15,8 +15,8 @@ namespace facet_mapping::carving {
 /// Walks the rays 0 .. count - 1 and calls `visit(k, walk)` at each cell of ray k, where `walk` is
 /// a `const RayWalk&` that stands in that cell. Each ray's cells come in its order, exactly those
 /// of a RayWalk of its own; different rays take turns. `start(k)` gives the vertex, `target(k)` the
-/// point (by value or reference). `finish(k, walk)` is called once for each ray, after its last
-/// cell.
+/// point; both may be asked more than once. `finish(k, walk)` is called once for each ray, after
+/// its last cell.
 template <typename Start, typename Target, typename Visit, typename Finish>
 void walk_rays(const Triangulation& triangulation,
                std::size_t count,
@@ -34,9 +34,12 @@ void walk_rays(const Triangulation& triangulation,
   std::size_t next_ray = 0;
   std::size_t open = 0;
   const auto refill = [&](Slot& slot) {
+    if (next_ray + kWalks < count) {
+      __builtin_prefetch(&*start(next_ray + kWalks));
+    }
     while (slot.walk.done() && next_ray < count) {
       slot.ray = next_ray++;
-      slot.walk = RayWalk(triangulation, start(slot.ray), target(slot.ray));
+      slot.walk = RayWalk::turning_walk(triangulation, start(slot.ray), target(slot.ray));
       if (slot.walk.done()) {
         finish(slot.ray, static_cast<const RayWalk&>(slot.walk));
       }
@@ -46,7 +49,9 @@ void walk_rays(const Triangulation& triangulation,
   const auto arrive = [&](Slot& slot) {
     slot.walk.fetch_next_cell();
     slot.is_cell_here = false;
-    visit(slot.ray, static_cast<const RayWalk&>(slot.walk));
+    if (!slot.walk.turning()) {
+      visit(slot.ray, static_cast<const RayWalk&>(slot.walk));
+    }
   };
   const auto turn = [&](Slot& slot) {
     if (!slot.is_cell_here) {

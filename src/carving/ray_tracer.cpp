@@ -113,7 +113,7 @@ RayTracer::Segments RayTracer::segments(const RayEnd& end) const {
   const Point eye = to_point(store_.frames[ray.frame].eye);
   const Kernel::Vector_3 away = source - eye;
   const double length = std::sqrt(away.squared_length());
-  const bool has_behind = ray.label != kUnlabelled && length > 0.0;
+  const bool has_behind = !ray.open && length > 0.0;
   const Point behind = has_behind ? source + away * (behind_distance_m_ / length) : source;
   return {end.ray, ray.sigma, has_behind, vertex, source, {eye, behind}};
 }

@@ -14,8 +14,8 @@
 namespace facet_mapping::carving {
 namespace {
 
-// Far more cells than meet in any vertex: only a defect could walk in circles.
-constexpr int kMaxTurns = 10000000;
+// Far more cells than meet in any vertex: only a defect could turn in circles.
+constexpr int kMaxTurns = 1000000;
 
 Eigen::Vector3d difference(const Point& a, const Point& b) {
   return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
@@ -30,12 +30,25 @@ std::array<int, 3> counter_clockwise(int apex) {
 
 }  // namespace
 
-RayWalk::RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target)
-    : infinite_(triangulation.infinite_vertex()), source_(start->point()), target_(target) {
-  if (source_ != target_) {
-    choose_axes();
-    enter_from_vertex(start);
+RayWalk::RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target) {
+  *this = turning_walk(triangulation, start, target);
+  while (turning_) {
+    advance();
   }
+}
+
+RayWalk RayWalk::turning_walk(const Triangulation& triangulation,
+                              VertexHandle start,
+                              const Point& target) {
+  RayWalk walk;
+  walk.infinite_ = triangulation.infinite_vertex();
+  walk.source_ = start->point();
+  walk.target_ = target;
+  if (walk.source_ != target) {
+    walk.choose_axes();
+    walk.enter_from_vertex(start);
+  }
+  return walk;
 }
 
 void RayWalk::choose_axes() {
@@ -57,7 +70,8 @@ void RayWalk::choose_axes() {
 
 bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
   const Turn quick = turn(a, b);
-  return quick.sure ? quick.left : turns_left_exactly(a.vertex->point(), b.vertex->point());
+  return quick.margin > 0.0 ? quick.cross > 0.0
+                            : turns_left_exactly(a.vertex->point(), b.vertex->point());
 }
 
 int RayWalk::hidden_corner_exactly(const Corner& reached) const {
@@ -94,44 +108,43 @@ void RayWalk::enter_from_vertex(VertexHandle start) {
   while (cell_->has_vertex(infinite_, infinite_index)) {
     cell_ = cell_->neighbor(infinite_index);
   }
-  if (find_first_cell(start)) {
-    done_ = false;
-    exit_ = cell_->index(start);
-    check_target();
-  }
-}
-
-// Turns around the start vertex: a facet through it that separates the present cell from the target
-// is crossed. That ends, as from any one point the cells of a Delaunay triangulation hide each
-// other without cycles (Edelsbrunner 1990). False if the segment leaves the convex hull at once.
-// (CGAL's incident_cells marks cells: not for threads.)
-bool RayWalk::find_first_cell(VertexHandle start) {
   const std::array<int, 3> order = counter_clockwise(cell_->index(start));
   for (int k = 0; k < 3; ++k) {
     ring_[k] = corner(cell_->vertex(order[k]));
   }
-  int known = -1;  // ring_[known] -> ring_[known + 1] turns left: the facet that was crossed last
-  for (int turns = 0; turns < kMaxTurns; ++turns) {
-    int across = 0;
-    while (across < 3 && (across == known || turns_left(ring_[across], ring_[(across + 1) % 3]))) {
-      ++across;
+  done_ = false;
+  find_separating_facet(false);
+}
+
+// Of the cell's facets through the start, ring_[k] -> ring_[k + 1], one that separates the cell
+// from the target is the way to turn; without one, the segment runs through the facet opposite.
+void RayWalk::find_separating_facet(bool is_first_known) {
+  for (int k = is_first_known ? 1 : 0; k < 3; ++k) {
+    if (!turns_left(ring_[k], ring_[(k + 1) % 3])) {
+      const int behind = (k + 2) % 3;
+      exit_ = index_of(cell_, ring_[behind].vertex);
+      ring_ = {ring_[(k + 1) % 3], ring_[k], ring_[behind]};
+      turning_ = true;
+      return;
     }
-    if (across == 3) {
-      return true;
-    }
-    const VertexHandle behind = ring_[(across + 2) % 3].vertex;
-    const CellHandle next = cell_->neighbor(cell_->index(behind));
-    const VertexHandle apex = next->vertex(next->index(cell_));
-    if (apex == infinite_) {
-      cell_ = next;
-      left_hull_ = true;
-      return false;
-    }
-    ring_ = {ring_[(across + 1) % 3], ring_[across], corner(apex)};
-    known = 0;
-    cell_ = next;
   }
-  throw std::logic_error("ray walk: the cells around a vertex are no Delaunay triangulation");
+  turning_ = false;
+  // The fourth vertex is the start.
+  exit_ = 6 - index_of(cell_, ring_[0].vertex) - index_of(cell_, ring_[1].vertex) -
+          index_of(cell_, ring_[2].vertex);
+  check_target();
+}
+
+// Goes on through the facet of ring_[0] and ring_[1], which is known not to separate the next cell.
+// That ends, as from any one point the cells of a Delaunay triangulation hide each other without
+// cycles (Edelsbrunner 1990). (CGAL's incident_cells marks cells: not for threads.)
+void RayWalk::turn_around_start(CellHandle next, VertexHandle apex) {
+  if (++turns_ > kMaxTurns) {
+    throw std::logic_error("ray walk: the cells around a vertex are no Delaunay triangulation");
+  }
+  cell_ = next;
+  ring_[2] = corner(apex);
+  find_separating_facet(true);
 }
 
 RayWalk RayWalk::through(const Triangulation& triangulation,

@@ -26,6 +26,13 @@ class RayWalk {
   RayWalk() = default;  ///< done()
   RayWalk(const Triangulation& triangulation, VertexHandle start, const Point& target);
 
+  /// A walk that still has to turn around its start: call advance() while turning(), before
+  /// anything else is asked.
+  static RayWalk turning_walk(const Triangulation& triangulation,
+                              VertexHandle start,
+                              const Point& target);
+  bool turning() const { return turning_; }
+
   /// The part of the segment beyond a facet of a finite cell: stands in that cell and goes on
   /// through the facet. done() if the segment does not leave the cell there.
   static RayWalk through(const Triangulation& triangulation,
@@ -50,7 +57,7 @@ class RayWalk {
   /// Fetch into the cache what the next advance() reads, for walks by turns (see ray_bundle.h): the
   /// cell first, then, once that is there, its far corner. Not to be called once done().
   void fetch_next_cell() const;
-  void fetch_next_corner() const;
+  void fetch_next_corner();
 
  private:
   /// A vertex seen along the segment: shifted along it onto a coordinate plane through the start.
@@ -62,21 +69,25 @@ class RayWalk {
     unsigned before;  ///< 1 if nearer than the target along the main axis, exactly
   };
 
-  /// Which way two corners turn around the segment.
+  /// Which way two corners turn around the segment: left if `cross` is positive, and that is sure
+  /// if `margin` is.
   struct Turn {
-    bool left;
-    bool sure;
+    double cross;
+    double margin;
+    unsigned right() const { return static_cast<unsigned>(std::signbit(cross)); }
   };
 
   void choose_axes();
   void enter_from_vertex(VertexHandle start);
-  bool find_first_cell(VertexHandle start);
+  void find_separating_facet(bool is_first_known);
+  void turn_around_start(CellHandle next, VertexHandle apex);
   Corner corner(VertexHandle vertex) const;
   static Turn turn(const Corner& a, const Corner& b);
   bool turns_left(const Corner& a, const Corner& b) const;
   bool turns_left_exactly(const Point& a, const Point& b) const;
   int hidden_corner(const Corner& reached) const;
   int hidden_corner_exactly(const Corner& reached) const;
+  VertexHandle next_corner() const;
   void check_target();
   bool sees_inside() const { return is_inside(target_); }
   bool is_inside(const Point& point) const;
@@ -93,7 +104,10 @@ class RayWalk {
   double end_ = 0.0;                ///< direction times the target's w
   CellHandle cell_;
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
+  VertexHandle apex_;             ///< the next cell's far corner, if it was asked for before
   int exit_ = -1;
+  int turns_ = 0;         ///< around the start, so far
+  bool turning_ = false;  ///< the exit facet separates the present cell from the target
   bool at_target_ = false;
   bool done_ = true;
   bool left_hull_ = false;
@@ -139,7 +153,7 @@ inline RayWalk::Turn RayWalk::turn(const Corner& a, const Corner& b) {
   constexpr double kRelativeError = 2e-14;
   constexpr double kUnderflow = 1e-290;
   const double cross = a.u * b.v - a.v * b.u;
-  return {cross > 0.0, std::abs(cross) > kRelativeError * a.size * b.size + kUnderflow};
+  return {cross, std::abs(cross) - (kRelativeError * (a.size * b.size) + kUnderflow)};
 }
 
 // The new corner lies, seen along the segment, opposite to one side of the ring: that side and the
@@ -148,12 +162,12 @@ inline int RayWalk::hidden_corner(const Corner& reached) const {
   const Turn first = turn(reached, ring_[0]);
   const Turn second = turn(reached, ring_[1]);
   const Turn third = turn(reached, ring_[2]);
-  if (!(first.sure & second.sure & third.sure)) {
+  if (!(std::min(std::min(first.margin, second.margin), third.margin) > 0.0)) {
     return hidden_corner_exactly(reached);
   }
-  constexpr std::array<std::int8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
-  return kHidden[static_cast<unsigned>(first.left) + 2U * static_cast<unsigned>(second.left) +
-                 4U * static_cast<unsigned>(third.left)];
+  constexpr unsigned kHidden = 0x2064;  // two bits for each pattern of right turns: 0 1 2 1 0 0 2 0
+  const unsigned turns = first.right() + 2U * second.right() + 4U * third.right();
+  return static_cast<int>((kHidden >> (2U * turns)) & 3U);
 }
 
 // The segment leaves through its exit facet between that one's corners, so that mostly the main
@@ -165,23 +179,36 @@ inline void RayWalk::check_target() {
 
 inline void RayWalk::fetch_next_cell() const {
   const auto* next = reinterpret_cast<const char*>(&*cell_->neighbor(exit_));
-  constexpr std::size_t kCacheLine = 64;
+  constexpr std::size_t kHotBytes = 4 * sizeof(CellHandle) + 4 * sizeof(VertexHandle);
   __builtin_prefetch(next);
-  __builtin_prefetch(next + kCacheLine);
+  __builtin_prefetch(next + kHotBytes - 1);
 }
 
-inline void RayWalk::fetch_next_corner() const {
+inline VertexHandle RayWalk::next_corner() const {
   const CellHandle next = cell_->neighbor(exit_);
-  __builtin_prefetch(&next->vertex(index_of(next, cell_))->point());
+  return next->vertex(index_of(next, cell_));
+}
+
+inline void RayWalk::fetch_next_corner() {
+  apex_ = next_corner();
+  const double* point = apex_->point().cartesian_begin();
+  __builtin_prefetch(point);
+  __builtin_prefetch(point + 2);
 }
 
 inline void RayWalk::advance() {
   const CellHandle next = cell_->neighbor(exit_);
-  const VertexHandle apex = next->vertex(index_of(next, cell_));
+  const VertexHandle apex = apex_ != VertexHandle() ? apex_ : next_corner();
+  apex_ = VertexHandle();
   if (at_target_ || apex == infinite_) {
     left_hull_ = !at_target_;
     cell_ = at_target_ ? cell_ : next;
     done_ = true;
+    turning_ = false;
+    return;
+  }
+  if (turning_) {
+    turn_around_start(next, apex);
     return;
   }
   cell_ = next;

@@ -59,6 +59,10 @@ void validate(const CarvingConfig& config) {
   require(config.steiner_spacing_m >= 0.0, "steiner_spacing_m", "zero (none) or positive");
   require(config.steiner_reach_m >= 0.0, "steiner_reach_m", "zero or more");
   require(config.steiner_clearance_m >= 0.0, "steiner_clearance_m", "zero or more");
+  require(config.neighbour_share >= 0.0 && config.neighbour_share <= 1.0,
+          "neighbour_share",
+          "between 0 and 1");
+  require(config.min_component_facets >= 0, "min_component_facets", "zero (keep all) or more");
   require(config.max_facet_edge_m > 0.0, "max_facet_edge_m", "positive");
   require(config.min_point_spacing_m > 0.0, "min_point_spacing_m", "positive");
 }
@@ -234,7 +238,8 @@ CarvedSurface SpaceCarver::Impl::extract_surface() {
   }
   classify_cells(&field_.triangulation(), config_);
   growth_ = FreeSpaceGrowth(&field_.triangulation()).update();
-  return make_surface(field_.triangulation(), config_.max_facet_edge_m);
+  return without_small_parts(make_surface(field_.triangulation(), config_.max_facet_edge_m),
+                             static_cast<std::size_t>(config_.min_component_facets));
 }
 
 CarvingStats SpaceCarver::Impl::stats() const {

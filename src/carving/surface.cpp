@@ -23,7 +23,7 @@ bool is_observed(const Corners& corners, double max_edge_m) {
 }
 
 LabelEvidence facet_evidence(CellHandle matter, const Corners& corners) {
-  if (!matter->info().labels.empty()) {
+  if (matter->info().labels.best() != kUnlabelled) {
     return matter->info().labels;
   }
   LabelEvidence evidence;

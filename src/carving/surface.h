@@ -16,4 +16,8 @@ namespace facet_mapping::carving {
 /// views.
 CarvedSurface make_surface(const Triangulation& triangulation, double max_edge_m);
 
+/// Drops connected parts of fewer than `min_facets` facets: specks of matter round an isolated
+/// point, bubbles of free space inside matter. What is left is as closed and manifold as before.
+CarvedSurface without_small_parts(CarvedSurface surface, std::size_t min_facets);
+
 }  // namespace facet_mapping::carving

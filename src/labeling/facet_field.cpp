@@ -27,14 +27,7 @@ std::int32_t in_units(double nats) {
   return static_cast<std::int32_t>(std::lround(kCostUnit * nats));
 }
 
-/// Mean over the vertices of the share of images that say class `index`.
-double mean_share(const Triangle& triangle, const VertexVotes& votes, std::size_t index) {
-  return (votes.share(triangle[0], index) + votes.share(triangle[1], index) +
-          votes.share(triangle[2], index)) /
-         3.0;
-}
-
-std::vector<ClassIndex> own_classes(const TriangleMesh& mesh, const VertexVotes& votes) {
+std::vector<ClassIndex> own_classes(const TriangleMesh& mesh, const Votes& votes) {
   std::vector<ClassIndex> own(mesh.triangles.size(), kNoClass);
   for (std::size_t f = 0; f < mesh.labels.size(); ++f) {
     own[f] = votes.index_of(mesh.labels[f]);
@@ -42,29 +35,27 @@ std::vector<ClassIndex> own_classes(const TriangleMesh& mesh, const VertexVotes&
   return own;
 }
 
-/// The class most images say, by facet; where none sees the facet, its own.
+bool supports_any(const std::vector<double>& shares) {
+  return std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.0; });
+}
+
+/// The class with the most evidence, by facet; where there is none, the facet's own.
 std::vector<ClassIndex> best_by_data(const TriangleMesh& mesh,
-                                     const VertexVotes& votes,
+                                     const Votes& votes,
                                      const std::vector<ClassIndex>& own) {
   std::vector<ClassIndex> best = own;
   for_each_facet(mesh.triangles.size(), [&](std::size_t f) {
-    if (votes.facet_views[f] == 0) {
-      return;
-    }
-    double most = -1.0;
-    for (std::size_t k = 0; k < votes.classes.size(); ++k) {
-      const double share = mean_share(mesh.triangles[f], votes, k);
-      if (share > most) {
-        most = share;
-        best[f] = static_cast<ClassIndex>(k);
-      }
+    const std::vector<double> shares = votes.shares(f, mesh.triangles[f]);
+    if (supports_any(shares)) {
+      best[f] =
+          static_cast<ClassIndex>(std::max_element(shares.begin(), shares.end()) - shares.begin());
     }
   });
   return best;
 }
 
 void fill_unary(const TriangleMesh& mesh,
-                const VertexVotes& votes,
+                const Votes& votes,
                 const std::vector<ClassOrientation>& orientations,
                 const std::vector<Eigen::Vector3d>& normals,
                 const LabelingConfig& config,
@@ -72,11 +63,12 @@ void fill_unary(const TriangleMesh& mesh,
   const std::size_t classes = votes.classes.size();
   field->problem.unary.resize(mesh.triangles.size() * classes);
   for_each_facet(mesh.triangles.size(), [&](std::size_t f) {
-    const bool seen = votes.facet_views[f] > 0;
+    const std::vector<double> shares = votes.shares(f, mesh.triangles[f]);
+    const bool seen = supports_any(shares);
     for (std::size_t k = 0; k < classes; ++k) {
       double cost = config.normal_weight * orientation_cost(orientations[k], normals[f], config);
       if (seen) {
-        cost -= std::log(std::max(config.beta, mean_share(mesh.triangles[f], votes, k)));
+        cost -= std::log(std::max(config.beta, shares[k]));
       } else if (field->own[f] != kNoClass && field->own[f] != k) {
         cost += config.own_label_weight;
       }
@@ -100,7 +92,7 @@ void clear_unreached(FacetField* field) {
 }  // namespace
 
 FacetField make_field(const TriangleMesh& mesh,
-                      const VertexVotes& votes,
+                      const Votes& votes,
                       const FacetGraph& graph,
                       const LabelingConfig& config) {
   FacetField field;

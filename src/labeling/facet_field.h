@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "labeling/facet_graph.h"
-#include "labeling/vertex_votes.h"
+#include "labeling/votes.h"
 
 #include "facet_mapping/labeling/alpha_expansion.h"
 #include "facet_mapping/labeling/facet_labeling.h"
@@ -23,7 +23,7 @@ struct FacetField {
 
 /// Needs at least one class in `votes`.
 FacetField make_field(const TriangleMesh& mesh,
-                      const VertexVotes& votes,
+                      const Votes& votes,
                       const FacetGraph& graph,
                       const LabelingConfig& config);
 

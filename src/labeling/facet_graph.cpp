@@ -5,62 +5,64 @@
 #include <algorithm>
 #include <cmath>
 
-#include "labeling/vertex_votes.h"
+#include "labeling/votes.h"
 
 namespace facet_mapping {
 namespace {
 
-// Keeps sums of costs far inside their type even on a mesh with absurdly unequal edges.
-constexpr double kLargestWeight = 1e8;
+double edge_length(const TriangleMesh& mesh, std::uint32_t facet, std::size_t side) {
+  const Triangle& t = mesh.triangles[facet];
+  return (mesh.vertices[t[(side + 1) % 3]] - mesh.vertices[t[side]]).norm();
+}
 
-/// Each shared edge once, from its facet with the smaller index; weights are still missing.
-std::vector<double> collect_edges(const TriangleMesh& mesh, FacetGraph* graph) {
-  const std::vector<FacetNeighbours> neighbours = facet_neighbours(mesh);
-  graph->edges_of.assign(mesh.triangles.size(), {-1, -1, -1});
-  std::vector<double> lengths;
-  for (std::uint32_t f = 0; f < neighbours.size(); ++f) {
-    for (std::size_t side = 0; side < 3; ++side) {
-      const std::int32_t other = neighbours[f][side];
-      if (other <= static_cast<std::int32_t>(f)) {
-        continue;
-      }
-      const auto g = static_cast<std::uint32_t>(other);
-      const Eigen::Vector3d& from = mesh.vertices[mesh.triangles[f][side]];
-      const Eigen::Vector3d& to = mesh.vertices[mesh.triangles[f][(side + 1) % 3]];
-      const auto edge = static_cast<std::int32_t>(graph->edges.size());
-      graph->edges.push_back({f, g, 0});
-      lengths.push_back((to - from).norm());
-      graph->edges_of[f][side] = edge;
-      for (std::size_t back = 0; back < 3; ++back) {
-        const Triangle& t = mesh.triangles[g];
-        const bool same = (t[back] == mesh.triangles[f][side] &&
-                           t[(back + 1) % 3] == mesh.triangles[f][(side + 1) % 3]) ||
-                          (t[(back + 1) % 3] == mesh.triangles[f][side] &&
-                           t[back] == mesh.triangles[f][(side + 1) % 3]);
-        if (same) {
-          graph->edges_of[g][back] = edge;
-        }
-      }
-    }
+double mean_edge_length(const TriangleMesh& mesh, std::uint32_t facet) {
+  return (edge_length(mesh, facet, 0) + edge_length(mesh, facet, 1) + edge_length(mesh, facet, 2)) /
+         3.0;
+}
+
+/// The side of `facet` that runs along side `other_side` of `other`.
+std::size_t matching_side(const TriangleMesh& mesh,
+                          std::uint32_t facet,
+                          std::uint32_t other,
+                          std::size_t other_side) {
+  const Triangle& t = mesh.triangles[facet];
+  const Triangle& o = mesh.triangles[other];
+  const auto ends = std::minmax({o[other_side], o[(other_side + 1) % 3]});
+  std::size_t side = 0;
+  while (side < 2 && std::minmax({t[side], t[(side + 1) % 3]}) != ends) {
+    ++side;
   }
-  return lengths;
+  return side;
+}
+
+/// Length of the common edge relative to the mean edge of the two facets.
+double relative_length(const TriangleMesh& mesh,
+                       std::uint32_t facet,
+                       std::uint32_t other,
+                       std::size_t side) {
+  const double mean = 0.5 * (mean_edge_length(mesh, facet) + mean_edge_length(mesh, other));
+  return mean > 0.0 ? edge_length(mesh, facet, side) / mean : 1.0;
 }
 
 }  // namespace
 
 FacetGraph make_facet_graph(const TriangleMesh& mesh, const LabelingConfig& config) {
-  FacetGraph graph;
-  const std::vector<double> lengths = collect_edges(mesh, &graph);
-  double sum = 0.0;
-  for (const double length : lengths) {
-    sum += length;
-  }
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(lengths.size(), 1));
   const double unit = kCostUnit * std::log(config.smooth_equal / config.smooth_different);
-  for (std::size_t e = 0; e < lengths.size(); ++e) {
-    const double weight = mean > 0.0 ? unit * lengths[e] / mean : unit;
-    graph.edges[e].weight =
-        static_cast<std::int32_t>(std::lround(std::min(weight, kLargestWeight)));
+  const std::vector<FacetNeighbours> neighbours = facet_neighbours(mesh);
+  FacetGraph graph;
+  graph.edges_of.assign(mesh.triangles.size(), {-1, -1, -1});
+  for (std::uint32_t f = 0; f < neighbours.size(); ++f) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      if (neighbours[f][side] <= static_cast<std::int32_t>(f)) {
+        continue;  // none, or entered from the other facet
+      }
+      const auto other = static_cast<std::uint32_t>(neighbours[f][side]);
+      const auto edge = static_cast<std::int32_t>(graph.edges.size());
+      graph.edges_of[f][side] = edge;
+      graph.edges_of[other][matching_side(mesh, other, f, side)] = edge;
+      const double weight = unit * relative_length(mesh, f, other, side);
+      graph.edges.push_back({f, other, static_cast<std::int32_t>(std::lround(weight))});
+    }
   }
   return graph;
 }

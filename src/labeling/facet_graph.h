@@ -24,8 +24,9 @@ struct FacetGraph {
   }
 };
 
-/// Potts weights log(smooth_equal / smooth_different) times edge length over mean length, so that
-/// the cost of a class border does not depend on how finely the surface is cut.
+/// Potts weights log(smooth_equal / smooth_different) times the length of the common edge over the
+/// mean edge length of the two facets. Not over the mean of the whole mesh: edges of a Delaunay
+/// mesh differ a hundredfold, so that large facets would be deaf to what the images say about them.
 FacetGraph make_facet_graph(const TriangleMesh& mesh, const LabelingConfig& config);
 
 /// Rings of facets around those with a class, nearest first: every facet that a class reaches takes

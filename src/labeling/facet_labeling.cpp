@@ -9,7 +9,7 @@
 
 #include "labeling/facet_field.h"
 #include "labeling/facet_graph.h"
-#include "labeling/vertex_votes.h"
+#include "labeling/votes.h"
 
 #include "facet_mapping/labeling/alpha_expansion.h"
 #include "facet_mapping/render/observed_mesh.h"
@@ -37,7 +37,9 @@ void check_config(const LabelingConfig& c) {
   require(c.max_sweeps >= 0, "max_sweeps must not be negative");
 }
 
-void check_views(const std::vector<LabeledView>& views, const std::vector<FacetImage>& renderings) {
+void check_views(const TriangleMesh& mesh,
+                 const std::vector<LabeledView>& views,
+                 const std::vector<FacetImage>& renderings) {
   require(views.size() == renderings.size(),
           "give one rendering per view, not " + std::to_string(renderings.size()) + " for " +
               std::to_string(views.size()));
@@ -50,8 +52,13 @@ void check_views(const std::vector<LabeledView>& views, const std::vector<FacetI
     require(
         labels.type() == CV_16UC1 && labels.size() == size,
         "the segmentation of view " + std::to_string(k) + " must be CV_16UC1 of the camera's size");
-    require(renderings[k].depth.size() == size,
+    require(renderings[k].depth.size() == size && renderings[k].facets.size() == size &&
+                renderings[k].facets.type() == CV_32SC1,
             "the rendering of view " + std::to_string(k) + " does not have the camera's size");
+    double largest = -1.0;
+    cv::minMaxLoc(renderings[k].facets, nullptr, &largest);
+    require(largest < static_cast<double>(mesh.triangles.size()),
+            "the rendering of view " + std::to_string(k) + " shows another mesh");
   }
 }
 
@@ -79,7 +86,7 @@ std::size_t count_changed(const TriangleMesh& mesh, const std::vector<Label>& la
   return changed;
 }
 
-LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const LabelingConfig& config) {
+LabelingResult solve(const TriangleMesh& mesh, Votes votes, const LabelingConfig& config) {
   const FacetGraph graph = make_facet_graph(mesh, config);
   const FacetField field = make_field(mesh, votes, graph, config);
   PottsSolution solution =
@@ -97,13 +104,23 @@ LabelingResult solve(const TriangleMesh& mesh, VertexVotes votes, const Labeling
   return result;
 }
 
+/// Facet of the whole mesh -> facet of the observed part, kNotObserved for gaps.
+std::vector<std::int32_t> observed_index(const TriangleMesh& whole, const ObservedMesh& observed) {
+  std::vector<std::int32_t> index(whole.triangles.size(), kNotObserved);
+  for (std::size_t k = 0; k < observed.whole_facets().size(); ++k) {
+    index[observed.whole_facets()[k]] = static_cast<std::int32_t>(k);
+  }
+  return index;
+}
+
 /// Gaps take no part: they would carry classes across space that nobody saw.
 LabelingResult label_observed(const TriangleMesh& whole,
                               const std::vector<LabeledView>& views,
                               const std::vector<FacetImage>& renderings,
                               const LabelingConfig& config) {
   const ObservedMesh observed(whole);
-  VertexVotes votes = count_votes(observed.mesh(), views, renderings, config);
+  Votes votes =
+      count_votes(observed.mesh(), views, renderings, observed_index(whole, observed), config);
   if (votes.classes.empty()) {
     return unlabelled(whole);
   }
@@ -128,7 +145,7 @@ LabelingResult label_facets(const TriangleMesh& mesh,
                             const LabelingConfig& config) {
   check_config(config);
   validate(mesh);
-  check_views(views, renderings);
+  check_views(mesh, views, renderings);
   LabelingResult result = label_observed(mesh, views, renderings, config);
   result.changed = count_changed(mesh, result.labels);
   return result;

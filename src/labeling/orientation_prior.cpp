@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "labeling/vertex_votes.h"
+#include "labeling/votes.h"
 
 namespace facet_mapping {
 namespace {
@@ -75,11 +75,16 @@ std::vector<ClassOrientation> estimate_orientations(const std::vector<Eigen::Vec
 double orientation_cost(const ClassOrientation& orientation,
                         const Eigen::Vector3d& normal,
                         const LabelingConfig& config) {
-  if (orientation.mean.isZero() || normal.isZero(0.0)) {
+  if (normal.isZero(0.0)) {
     return 0.0;
   }
-  const double deviation = angle_between(orientation.mean, normal) / orientation.sigma_rad;
-  return std::min(0.5 * deviation * deviation, -std::log(config.normal_floor));
+  // What a class pays on average at its own facets; for free, unknown classes would win everywhere.
+  double cost = 0.5;
+  if (!orientation.mean.isZero()) {
+    const double deviation = angle_between(orientation.mean, normal) / orientation.sigma_rad;
+    cost = 0.5 * deviation * deviation;
+  }
+  return std::min(cost, -std::log(config.normal_floor));
 }
 
 }  // namespace facet_mapping

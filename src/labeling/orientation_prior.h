@@ -29,7 +29,8 @@ std::vector<ClassOrientation> estimate_orientations(const std::vector<Eigen::Vec
                                                     std::size_t classes,
                                                     const LabelingConfig& config);
 
-/// -log max(normal_floor, P_norm) of a facet, nats; 0 for facets without area.
+/// -log max(normal_floor, P_norm) of a facet, nats: 1/2 on average over a class's own facets, and
+/// so 1/2 for a class without a prior; 0 for facets without area.
 double orientation_cost(const ClassOrientation& orientation,
                         const Eigen::Vector3d& normal,
                         const LabelingConfig& config);

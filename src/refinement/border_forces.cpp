@@ -78,7 +78,8 @@ class ForceCollector {
     for (int end = 0; end < 2; ++end) {
       forces_.push_back({border.vertices[end],
                          border.weights[end] * slope * lever,
-                         border.weights[end] * largest * lever.squaredNorm()});
+                         border.weights[end] * largest * lever.squaredNorm(),
+                         border.occluding});
     }
   }
 

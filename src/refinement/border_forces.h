@@ -19,6 +19,7 @@ struct VertexForce {
   std::uint32_t vertex = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double curvature = 0.0;
+  bool occluding = false;
 };
 
 /// Visits every pair of neighbouring pixels that show different classes: each crosses one pixel's

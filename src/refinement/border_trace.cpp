@@ -79,8 +79,11 @@ std::optional<BorderPoint> BorderTracer::trace(int facet,
       return std::nullopt;
     }
     const int next = neighbours_[facet][exit.side];
-    const Projected beyond = next >= 0 ? project(next) : Projected{};
-    if (next < 0 || mesh_.labels[next] != label || beyond.orientation != here.orientation) {
+    if (next < 0) {
+      return std::nullopt;
+    }
+    const Projected beyond = project(next);
+    if (mesh_.labels[next] != label || beyond.orientation != here.orientation) {
       const int a = exit.side;
       const int b = (exit.side + 1) % 3;
       const Eigen::Vector3d ray = start + exit.position * delta;
@@ -91,6 +94,7 @@ std::optional<BorderPoint> BorderTracer::trace(int facet,
       point.weights = {weight_a / (weight_a + weight_b), weight_b / (weight_a + weight_b)};
       point.point_in_cam = point.weights[0] * here.corner[a] + point.weights[1] * here.corner[b];
       point.position = exit.position;
+      point.occluding = beyond.orientation != here.orientation;
       return point;
     }
     const FacetNeighbours& back = neighbours_[next];

@@ -67,20 +67,30 @@ Shape LevelProblem::evaluate(TriangleMesh mesh, bool with_gradient) const {
   return shape;
 }
 
+VertexField LevelProblem::semantic_field(const Shape& shape) const {
+  SemanticGradient parts =
+      semantic_gradient(shape.mesh, semantic_views_, shape.surfaces, shape.gates);
+  if (config_.semantic == SemanticMode::kSplit) {
+    keep_normal_part(shape.mesh, &parts.contours);
+    keep_tangential_part(shape.mesh, &parts.seams);
+  }
+  parts.contours.add(parts.seams);
+  if (config_.semantic == SemanticMode::kNormal) {
+    keep_normal_part(shape.mesh, &parts.contours);
+  }
+  return std::move(parts.contours);
+}
+
 void LevelProblem::evaluate_semantic(Shape* shape, bool with_gradient) const {
-  const bool single = config_.semantic == SemanticMode::kNormal ||  //
-                      config_.semantic == SemanticMode::kFull;
+  const bool single = config_.semantic != SemanticMode::kOff &&  //
+                      config_.semantic != SemanticMode::kPairwise;
   if (single || !with_gradient) {  // otherwise it is only reported, before and after
     shape->gates =
         semantic_gates(shape->mesh, semantic_views_, shape->surfaces, config_.semantic_window_px);
     shape->semantic = semantic_energy(shape->mesh, semantic_views_, shape->surfaces, shape->gates);
   }
   if (single && with_gradient) {
-    shape->semantic.field =
-        semantic_gradient(shape->mesh, semantic_views_, shape->surfaces, shape->gates);
-  }
-  if (config_.semantic == SemanticMode::kNormal && with_gradient) {
-    keep_normal_part(shape->mesh, &shape->semantic.field);
+    shape->semantic.field = semantic_field(*shape);
   }
   if (config_.semantic == SemanticMode::kPairwise) {
     shape->pairwise = pairwise_semantic_energy(

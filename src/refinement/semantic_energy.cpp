@@ -38,13 +38,13 @@ SemanticEnergy semantic_energy(const TriangleMesh& mesh,
   return total;
 }
 
-VertexField semantic_gradient(const TriangleMesh& mesh,
-                              const std::vector<SemanticView>& views,
-                              const std::vector<SurfaceView>& surfaces,
-                              const std::vector<SemanticGate>& gates) {
-  VertexField field(mesh.vertices.size());
+SemanticGradient semantic_gradient(const TriangleMesh& mesh,
+                                   const std::vector<SemanticView>& views,
+                                   const std::vector<SurfaceView>& surfaces,
+                                   const std::vector<SemanticGate>& gates) {
+  SemanticGradient result{VertexField(mesh.vertices.size()), VertexField(mesh.vertices.size())};
   if (mesh.labels.empty()) {
-    return field;
+    return result;
   }
   const std::vector<FacetNeighbours> neighbours = facet_neighbours(mesh);
   const auto trace_view = [&](std::size_t i) {
@@ -55,16 +55,24 @@ VertexField semantic_gradient(const TriangleMesh& mesh,
   ordered_reduce(
       views.size(), trace_view, [&](std::size_t, const std::vector<VertexForce>& forces) {
         for (const VertexForce& f : forces) {
+          VertexField& field = f.occluding ? result.contours : result.seams;
           field.add(f.vertex, f.gradient, f.curvature);
         }
       });
-  return field;
+  return result;
 }
 
 void keep_normal_part(const TriangleMesh& mesh, VertexField* field) {
   const std::vector<Eigen::Vector3d> normals = vertex_normals(mesh);
   for (std::size_t k = 0; k < normals.size(); ++k) {
     field->gradient[k] = normals[k].dot(field->gradient[k]) * normals[k];
+  }
+}
+
+void keep_tangential_part(const TriangleMesh& mesh, VertexField* field) {
+  const std::vector<Eigen::Vector3d> normals = vertex_normals(mesh);
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    field->gradient[k] -= normals[k].dot(field->gradient[k]) * normals[k];
   }
 }
 

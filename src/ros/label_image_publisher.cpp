@@ -39,7 +39,7 @@ LabelImagePublisher::LabelImagePublisher(ros::NodeHandle private_nh,
       jobs_(1, [diagnostics](const std::string& error) {
         diagnostics->complain("label image failed", error);
       }) {
-  for (const ClassInfo& info : labels_.classes()) {
+  for (const ClassInfo& info : labels_.classes()) {  // ignored ones never come out of the mesh
     wide_ids_ = wide_ids_ || (!info.ignore && info.id > kLargestNarrowId);
   }
 }

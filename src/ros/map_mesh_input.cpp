@@ -11,6 +11,7 @@ namespace facet_mapping {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;  // deltas, which must not be lost
+constexpr double kFirstMeshWaitS = 3.0;
 
 }  // namespace
 
@@ -27,6 +28,18 @@ MapMeshInput::MapMeshInput(ros::NodeHandle nh,
   diagnostics_->expect_input(topic_);
   subscriber_ = nh.subscribe<LabeledMesh>(
       "mesh", kQueueSize, [this](const LabeledMeshConstPtr& message) { receive(message); });
+  first_timer_ = nh.createWallTimer(ros::WallDuration(kFirstMeshWaitS),
+                                    [this](const ros::WallTimerEvent&) { request_first(); });
+}
+
+void MapMeshInput::request_first() {
+  // In a nodelet manager that subscribed before, roscpp shares the connection: no full mesh comes.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (receiver_.has_mesh()) {
+    first_timer_.stop();
+  } else if (subscriber_.getNumPublishers() > 0) {
+    jobs_.post([this] { request_full(); });
+  }
 }
 
 void MapMeshInput::receive(const LabeledMeshConstPtr& message) {

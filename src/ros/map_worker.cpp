@@ -111,6 +111,7 @@ void MapWorker::run() {
   std::deque<Item> frames;
   std::uint64_t epoch = 0;
   while (wait_for_frames(&frames, &epoch)) {
+    next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
     try {
       integrate(&frames, epoch);
     } catch (const std::exception& e) {
@@ -122,7 +123,6 @@ void MapWorker::run() {
       in_work_ = 0;
       bytes_in_work_ = 0;
     }
-    next_update_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(update_period_);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "facet_mapping/ros/node_diagnostics.h"
 
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace facet_mapping {
@@ -10,7 +11,17 @@ namespace {
 
 constexpr double kLogPeriodS = 5.0;      // of each reason
 constexpr double kFreshProblemS = 10.0;  // how long a problem keeps the status at WARN
-constexpr double kPublishPeriodS = 1.0;
+constexpr double kDefaultPeriodS = 1.0;
+constexpr double kShortestPeriodS = 0.01;
+constexpr double kLongestPeriodS = 3600.0;
+
+ros::WallDuration publish_period(const ros::NodeHandle& private_nh) {
+  const double period_s = private_nh.param("diagnostic_period", kDefaultPeriodS);
+  if (!(period_s >= kShortestPeriodS && period_s <= kLongestPeriodS)) {
+    throw std::invalid_argument("parameter ~diagnostic_period must lie between 0.01 and 3600 s");
+  }
+  return ros::WallDuration(period_s);
+}
 
 }  // namespace
 
@@ -18,13 +29,12 @@ NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandl
     : name_(private_nh.getNamespace()), updater_(nh, private_nh, name_) {
   updater_.setHardwareID("none");
   updater_.add("mapping", this, &NodeDiagnostics::fill);
-  timer_ =
-      nh.createWallTimer(ros::WallDuration(kPublishPeriodS), [this](const ros::WallTimerEvent&) {
-        if (refresh_) {
-          refresh_();
-        }
-        updater_.force_update();
-      });
+  timer_ = nh.createWallTimer(publish_period(private_nh), [this](const ros::WallTimerEvent&) {
+    if (refresh_) {
+      refresh_();
+    }
+    updater_.force_update();
+  });
 }
 
 void NodeDiagnostics::on_publish(std::function<void()> refresh) {

@@ -69,9 +69,14 @@ SemanticMode semantic_mode(std::uint8_t asked, SemanticMode fallback) {
       return SemanticMode::kNormal;
     case Request::SEMANTIC_FULL:
       return SemanticMode::kFull;
+    case Request::SEMANTIC_PAIRWISE:
+      return SemanticMode::kPairwise;
+    case Request::SEMANTIC_SPLIT:
+      return SemanticMode::kSplit;
     default:
       throw std::invalid_argument(
-          "semantic_mode must be 0 (default), 1 (off), 2 (normal) or 3 (full)");
+          "semantic_mode must be 0 (default), 1 (off), 2 (normal), 3 (full), 4 (pairwise) or 5 "
+          "(split)");
   }
 }
 

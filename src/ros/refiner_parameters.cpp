@@ -14,16 +14,25 @@ void add_flows(ParameterTable* table, RefinementConfig* c) {
       &c->semantic,
       {{"off", SemanticMode::kOff},
        {"normal", SemanticMode::kNormal},
-       {"full", SemanticMode::kFull}},
-      "semantic flow: off, along the surface normal, or also sliding class borders");
+       {"full", SemanticMode::kFull},
+       {"split", SemanticMode::kSplit},
+       {"pairwise", SemanticMode::kPairwise}},
+      "semantic flow: off; normal: along the surface normal; full: class borders may slide, too; "
+      "split: contours move the shape, borders on a continuous surface slide; "
+      "pairwise: between views, for comparison");
   table->add("refinement/semantic_weight",
              &c->semantic_weight,
              "",
              "weight of the semantic energy beside the photometric one",
-             kNotNegative);
+             {0.0, 1e6});
   table->add("refinement/smoothing", &c->smoothing, "", "weight of the umbrella operator", kUnit);
   table->add(
       "refinement/thin_plate", &c->thin_plate, "", "weight of the second-order smoothing", kUnit);
+  table->add("refinement/planar_smoothing",
+             &c->planar_smoothing,
+             "",
+             "factor of both weights on classes marked planar",
+             {1.0, 1000.0});
   table->add("refinement/relabel", &c->relabel, "label the mesh anew after each level");
 }
 
@@ -67,11 +76,29 @@ void add_details(ParameterTable* table, RefinementConfig* c) {
 
 void add_labeling(ParameterTable* table, LabelingConfig* c) {
   table->add("labeling/beta", &c->beta, "", "floor of the data probability", {1e-6, 1.0});
+  table->add("labeling/pixel_votes",
+             &c->pixel_votes,
+             "evidence from all pixels that show a facet; false: from its vertices alone");
   table->add("labeling/normal_weight",
              &c->normal_weight,
              "",
              "weight of the prior on facet orientation",
-             kNotNegative);
+             {0.0, 1000.0});
+  table->add("labeling/normal_floor",
+             &c->normal_floor,
+             "",
+             "floor of the orientation probability, so that images outvote it",
+             {1e-6, 1.0});
+  table->add("labeling/min_normal_sigma_deg",
+             &c->min_normal_sigma_deg,
+             "deg",
+             "least angular deviation that a class is credited with",
+             {0.1, 180.0});
+  table->add("labeling/min_normal_facets",
+             &c->min_normal_facets,
+             "",
+             "classes with fewer facets have no orientation prior",
+             {0, 1e9});
   table->add("labeling/smooth_equal",
              &c->smooth_equal,
              "",
@@ -82,6 +109,11 @@ void add_labeling(ParameterTable* table, LabelingConfig* c) {
              "",
              "probability that neighbours have different classes",
              {1e-6, 1.0});
+  table->add("labeling/own_label_weight",
+             &c->own_label_weight,
+             "nats",
+             "cost of dropping the mesh's own label where no image sees",
+             {0.0, 1000.0});
   table->add("labeling/depth_tolerance",
              &c->depth_tolerance,
              "",

@@ -52,11 +52,7 @@ StereoPointsNode::StereoPointsNode(ros::NodeHandle nh, ros::NodeHandle private_n
       sync_(parts_of(config_.segmentation), config_.segmentation.cache_s, kMaxWaitingFrames),
       jobs_(static_cast<std::size_t>(config_.queue_size),
             [this](const std::string& error) { diagnostics_.complain("matcher failed", error); }) {
-  for (const ClassInfo& info : labels_.classes()) {
-    if (info.sky) {
-      config_.stereo.excluded_labels.push_back(info.id);
-    }
-  }
+  config_.stereo.excluded_labels = labels_.sky_ids();
   points_pub_ = nh.advertise<sensor_msgs::PointCloud2>("points", kQueueSize);
   diagnostics_.on_publish([this] { refresh_diagnostics(); });
   subscribe(nh);

@@ -38,11 +38,12 @@ void add_config_options(CLI::App* app, Options* options) {
   const std::map<std::string, SemanticMode> modes = {{"off", SemanticMode::kOff},
                                                      {"normal", SemanticMode::kNormal},
                                                      {"full", SemanticMode::kFull},
+                                                     {"split", SemanticMode::kSplit},
                                                      {"pairwise", SemanticMode::kPairwise}};
   app->add_option("--levels", config.levels, "image pyramid levels")->capture_default_str();
   app->add_option("--iterations", config.iterations, "iterations per level")->capture_default_str();
   app->add_flag("--no-photometric", options->no_photometric, "leave the photometric flow out");
-  app->add_option("--semantic", config.semantic, "off, normal, full or pairwise")
+  app->add_option("--semantic", config.semantic, "off, normal, full, split or pairwise")
       ->transform(CLI::CheckedTransformer(modes));
   app->add_option("--semantic-weight", config.semantic_weight)->capture_default_str();
   app->add_option("--smoothing", config.smoothing, "umbrella weight")->capture_default_str();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/carving/space_carver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -69,6 +70,78 @@ TEST(SpaceCarver, CarvesARoom) {
   const TriangleMesh mesh = carver.extract_surface().mesh;
   EXPECT_TRUE(check_manifold(mesh).is_closed_manifold()) << check_manifold(mesh).to_string();
   EXPECT_NEAR(volume(mesh), -192.0, 4.0);
+}
+
+TEST(SpaceCarver, CarvesARoomWithoutLabels) {
+  SpaceCarver carver(room_config());
+  CarvingFrame frame = look_around({0.5, 0.2, 0.1}, 3000, 0.0, 1);
+  for (CarvingFrame::Ray& ray : frame.rays) {
+    ray.label = kUnlabelled;
+  }
+  carver.insert({frame});
+  const TriangleMesh mesh = carver.extract_surface().mesh;
+  EXPECT_TRUE(check_manifold(mesh).is_closed_manifold());
+  EXPECT_NEAR(volume(mesh), -192.0, 4.0);
+  for (const Label label : mesh.labels) {
+    ASSERT_EQ(label, kUnlabelled);
+  }
+}
+
+TEST(SpaceCarver, OpenRaysCarveButLeaveNoSurface) {
+  SpaceCarver carver(room_config());
+  CarvingFrame frame = look_around({0.0, 0.0, 0.0}, 3000, 0.0, 1);
+  for (CarvingFrame::Ray& ray : frame.rays) {
+    ray.open = ray.label == 5;  // the ceiling is the sky
+  }
+  carver.insert({frame});
+  const TriangleMesh mesh = carver.extract_surface().mesh;
+  std::size_t walls = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    EXPECT_NE(mesh.labels[f], 5);
+    walls += mesh.views[f] > 0 ? 1 : 0;
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      EXPECT_FALSE(mesh.views[f] > 0 && mesh.vertices[v].z() > 1.999);
+    }
+  }
+  EXPECT_GT(walls, 1000U);
+}
+
+/// The cells with all corners within 20 m of a point.
+std::vector<CellEvidence> cells_near(const SpaceCarver& carver, const Eigen::Vector3d& point) {
+  std::vector<CellEvidence> cells = carver.evidence();
+  const auto is_far = [&point](const CellEvidence& cell) {
+    return std::any_of(cell.vertices.begin(), cell.vertices.end(), [&point](const auto& corner) {
+      return (corner - point).norm() > 20.0;
+    });
+  };
+  cells.erase(std::remove_if(cells.begin(), cells.end(), is_far), cells.end());
+  return cells;
+}
+
+TEST(SpaceCarver, ForgetsWhatIsFarAndKeepsTheEvidenceNearby) {
+  CarvingConfig config;
+  config.steiner_reach_m = 20.0;
+  SpaceCarver all(config);
+  SpaceCarver bounded(config);
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (unsigned k = 0; k < 12; ++k) {  // a row of rooms, 9 m apart
+    place = Eigen::Vector3d(9.0 * k, 0.0, 0.0);
+    CarvingFrame frame = look_around({0.0, 0.0, 0.0}, 400, 0.02, k);
+    frame.center += place;
+    for (CarvingFrame::Ray& ray : frame.rays) {
+      ray.point += place;
+    }
+    const FrameId id = all.insert({frame}).front();
+    EXPECT_EQ(bounded.insert({frame}).front(), id);
+    bounded.forget_beyond(place, 35.0);
+    EXPECT_TRUE(check_manifold(bounded.extract_surface().mesh).is_closed_manifold());
+  }
+  EXPECT_FALSE(bounded.holds(0));
+  EXPECT_TRUE(bounded.holds(11));
+  EXPECT_LT(bounded.stats().vertices, all.stats().vertices);
+  EXPECT_LT(bounded.bytes(), all.bytes());
+  EXPECT_GT(cells_near(all, place).size(), 1000U);
+  EXPECT_TRUE(cells_near(bounded, place) == cells_near(all, place));
 }
 
 TEST(SpaceCarver, LabelsTheWalls) {

@@ -32,6 +32,13 @@ std::string message_of(const std::vector<ClassInfo>& classes) {
   return "";
 }
 
+TEST(LabelSet, SkyIsWhatTheClassesSay) {
+  ClassInfo sky = make_class(9, "above", {1, 2, 3});
+  sky.sky = true;
+  const LabelSet labels({make_class(4, "sky", {4, 5, 6}), sky});
+  EXPECT_EQ(labels.sky_ids(), std::vector<Label>{9});
+}
+
 TEST(LabelSet, FindsByIdNameAndColor) {
   ClassInfo road = make_class(7, "road", {128, 64, 128});
   road.aliases = {{1, 2, 3}};

@@ -40,10 +40,13 @@ class BadInputTest : public testing::Test {
     const boost::function<void(const sensor_msgs::PointCloud2ConstPtr&)> ignore = [](const auto&) {
     };
     points_sub_ = ros::NodeHandle().subscribe<sensor_msgs::PointCloud2>("points", 10, ignore);
-    ASSERT_TRUE(
-        wait_until([] { return car_->is_connected() && cloud_pub_.getNumSubscribers() > 0; }));
+    connected_ = wait_until([] {
+      return car_->is_connected() && cloud_pub_.getNumSubscribers() > 0 &&
+             points_sub_.getNumPublishers() > 0;
+    });
     wait_until([] { return false; }, 0.5);  // stereo_points must know its subscriber
   }
+  void SetUp() override { ASSERT_TRUE(connected_); }
   static void TearDownTestSuite() {
     points_sub_.shutdown();
     cloud_pub_.shutdown();
@@ -87,6 +90,7 @@ class BadInputTest : public testing::Test {
   static ros::Publisher cloud_pub_;
   static ros::Subscriber points_sub_;
   static ros::Time stamp_;
+  static bool connected_;
 };
 
 std::unique_ptr<CorridorCar> BadInputTest::car_;
@@ -95,6 +99,7 @@ std::unique_ptr<tf2_ros::TransformBroadcaster> BadInputTest::tf_;
 ros::Publisher BadInputTest::cloud_pub_;
 ros::Subscriber BadInputTest::points_sub_;
 ros::Time BadInputTest::stamp_(1000.0);
+bool BadInputTest::connected_ = false;
 
 TEST_F(BadInputTest, ServicesBeforeAnyMeshSayWhatIsMissing) {
   const Status refine = call<Refine>("refiner/refine");

@@ -76,30 +76,50 @@ double median_error(const TriangleMesh& mesh) {
 class ChainTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
+    map_mesh_ = std::make_unique<MeshEar>("mapper/mesh");
+    arrived_ = drive();
+  }
+  void SetUp() override { ASSERT_TRUE(arrived_) << "not every frame became a keyframe"; }
+
+  static bool drive() {
     CorridorCar car;
     const DiagnosticsEar diagnostics;
-    map_mesh_ = std::make_unique<MeshEar>("mapper/mesh");
-    ASSERT_TRUE(wait_until([&] { return car.is_connected(); }));
-    for (int k = 0; k < kFrames; ++k) {
+    if (!wait_until([&] { return car.is_connected(); })) {
+      return false;
+    }
+    // The nodes connect to each other in their own time, and until then stereo_points is lazy.
+    const auto has_begun = [&] {
+      car.drive_to(0.0, ros::Time::now());
+      wait_until([] { return false; }, 0.3);
+      return diagnostics.value("mapper", "keyframes") == 1 &&
+             diagnostics.value("refiner", "keyframes") == 1;
+    };
+    if (!wait_until(has_begun, 60.0)) {
+      return false;
+    }
+    for (int k = 1; k < kFrames; ++k) {
       car.drive_to(k * kStepM, ros::Time::now());
       wait_until([] { return false; }, 0.1);
     }
-    ASSERT_TRUE(wait_until(
-        [&] {
-          return diagnostics.value("mapper", "keyframes") == kFrames &&
-                 diagnostics.value("refiner", "keyframes") == kFrames &&
-                 diagnostics.value("mapper", "frames waiting for the map") == 0;
-        },
-        60.0));
-    ASSERT_TRUE(wait_until([] { return map_mesh_->has_facets(); }));
-    wait_until([] { return false; }, 1.5);  // the last delta
+    const auto is_mapped = [&] {
+      return diagnostics.value("mapper", "keyframes") == kFrames &&
+             diagnostics.value("refiner", "keyframes") == kFrames &&
+             diagnostics.value("mapper", "frames waiting for the map") == 0 &&
+             map_mesh_->has_facets();
+    };
+    const bool mapped = wait_until(is_mapped, 60.0);
+    wait_until([] { return false; }, 0.5);  // the last delta
+    return mapped;
   }
+
   static void TearDownTestSuite() { map_mesh_.reset(); }
 
   static std::unique_ptr<MeshEar> map_mesh_;
+  static bool arrived_;
 };
 
 std::unique_ptr<MeshEar> ChainTest::map_mesh_;
+bool ChainTest::arrived_ = false;
 
 TEST_F(ChainTest, MapIsAClosedLabelledManifoldWhereTheCorridorIs) {
   EXPECT_FALSE(map_mesh_->missed_something());
@@ -137,10 +157,11 @@ TEST_F(ChainTest, GetMeshFiltersByRegionAndClass) {
   EXPECT_EQ(call<GetMesh>("mapper/get_mesh", request).status.code, Status::INVALID_ARGUMENT);
 }
 
-TEST_F(ChainTest, PaletteIsLatchedAndImagesOfTheClassesCome) {
+TEST_F(ChainTest, PaletteIsLatched) {
   const LastMessage<ClassPalette> palette("mapper/palette");
   EXPECT_TRUE(palette.wait());
-  EXPECT_EQ(palette.get()->classes.size(), 20U);  // 19 train ids and void
+  ASSERT_EQ(palette.get()->classes.size(), 20U);  // 19 train ids and void
+  EXPECT_EQ(palette.get()->classes.at(kBuilding).name, "building");
 }
 
 TEST_F(ChainTest, DryRunChangesNothing) {

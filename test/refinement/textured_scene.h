@@ -98,8 +98,23 @@ inline LabeledView cast_view(const View& view, const Surface& surface, const Tex
   return result;
 }
 
+/// View from `eye` towards `target` with +y up in the image.
+inline View view_with_y_up(const PinholeCamera& camera,
+                           const Eigen::Vector3d& eye,
+                           const Eigen::Vector3d& target) {
+  const Eigen::Vector3d back = (eye - target).normalized();
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(back).normalized();
+  View view;
+  view.camera = camera;
+  view.world_from_cam.linear().col(0) = right;
+  view.world_from_cam.linear().col(1) = right.cross(back);
+  view.world_from_cam.linear().col(2) = -back;
+  view.world_from_cam.translation() = eye;
+  return view;
+}
+
 /// Cameras on an arc around the target, `step_deg` apart, at `distance` from it (along +z in the
-/// middle of the arc).
+/// middle of the arc), +y up in their images and +x to the right.
 inline std::vector<View> arc_of_views(const PinholeCamera& camera,
                                       const Eigen::Vector3d& target,
                                       double distance,
@@ -109,10 +124,8 @@ inline std::vector<View> arc_of_views(const PinholeCamera& camera,
   for (int k = 0; k < count; ++k) {
     const double angle = (k - 0.5 * (count - 1)) * step_deg * M_PI / 180.0;
     const double tilt = (k % 2 == 0 ? 0.04 : -0.04);
-    views.push_back(look_at(
-        camera,
-        target + distance * Eigen::Vector3d(std::sin(angle), std::sin(tilt), std::cos(angle)),
-        target));
+    const Eigen::Vector3d back(std::sin(angle), std::sin(tilt), std::cos(angle));
+    views.push_back(view_with_y_up(camera, target + distance * back, target));
   }
   return views;
 }

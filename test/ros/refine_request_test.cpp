@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/refine_request.h"
 
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "support/meshes.h"
 #include <gtest/gtest.h>
@@ -54,6 +57,21 @@ TEST(RefineRequest, WhatIsGivenCounts) {
   EXPECT_EQ(config.thin_plate, 0.1);
 }
 
+TEST(RefineRequest, EverySemanticModeCanBeAskedFor) {
+  using Request = Refine::Request;
+  const std::vector<std::pair<std::uint8_t, SemanticMode>> modes = {
+      {Request::SEMANTIC_OFF, SemanticMode::kOff},
+      {Request::SEMANTIC_NORMAL, SemanticMode::kNormal},
+      {Request::SEMANTIC_FULL, SemanticMode::kFull},
+      {Request::SEMANTIC_PAIRWISE, SemanticMode::kPairwise},
+      {Request::SEMANTIC_SPLIT, SemanticMode::kSplit}};
+  for (const auto& [asked, mode] : modes) {
+    Request request;
+    request.semantic_mode = asked;
+    EXPECT_EQ(refinement_config(request, node_defaults()).semantic, mode);
+  }
+}
+
 template <typename Change>
 void expect_refused(const Change& change) {
   Refine::Request request;
@@ -70,7 +88,7 @@ TEST(RefineRequest, WhatIsOutOfRangeIsRefused) {
   expect_refused([](auto& request) { request.iterations = -1; });
   expect_refused([](auto& request) { request.levels = 50; });
   expect_refused([](auto& request) { request.photometric = 3; });
-  expect_refused([](auto& request) { request.semantic_mode = 4; });
+  expect_refused([](auto& request) { request.semantic_mode = 6; });
   expect_refused([](auto& request) { request.time_budget = -1.0; });
   expect_refused(
       [](auto& request) { request.memory_budget = std::numeric_limits<double>::quiet_NaN(); });

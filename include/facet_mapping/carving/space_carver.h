@@ -27,12 +27,15 @@ struct CarvingConfig {
   Extraction extraction = Extraction::kGraphCut;  ///< how cells are called free
   double surface_quality_weight = 1.0;  ///< graph cut: cost of a badly shaped facet, in rays
   double evidence_cap = 32.0;           ///< graph cut: most evidence that a cell can have, in rays
-  double free_space_threshold = 1.0;    ///< least free-space evidence of a free cell, in rays
-  double behind_distance_m = 0.5;       ///< how far behind a point its label is evidence, metres
+  double neighbour_share = 0.0;  ///< of its neighbours' mean free-space evidence that a cell gets
+                                 ///< too (inverse cone, Litvinov & Lhuillier 2014), 0 .. 1
+  double free_space_threshold = 1.0;  ///< least free-space evidence of a free cell, in rays
+  double behind_distance_m = 0.5;     ///< how far behind a point it is evidence of matter, metres
   double steiner_spacing_m = 6.0;     ///< spacing of the extra vertices that bound cells; 0 = none
   double steiner_reach_m = 52.0;      ///< how far around a sensor extra vertices are laid, metres
   double steiner_clearance_m = 0.5;   ///< extra vertices keep this far from points, metres
   double max_facet_edge_m = 2.5;      ///< facets with a longer edge carry no class, metres
+  int min_component_facets = 20;      ///< closed parts of the surface with fewer facets are dropped
   double min_point_spacing_m = 0.05;  ///< a point nearer to a vertex than this joins it, metres
 };
 
@@ -74,9 +77,10 @@ struct CarvingStats {
 
 /// One cell's evidence, keyed by its vertices' coordinates, so that two runs can be compared.
 struct CellEvidence {
-  std::array<Eigen::Vector3d, 4> vertices;              ///< in lexicographic order
-  std::uint32_t free = 0;                               ///< free-space evidence, 1/256 rays
-  std::vector<std::pair<Label, std::uint32_t>> labels;  ///< class, evidence in 1/256 rays
+  std::array<Eigen::Vector3d, 4> vertices;  ///< in lexicographic order
+  std::uint32_t free = 0;                   ///< free-space evidence, 1/256 rays
+  std::vector<std::pair<Label, std::uint32_t>>
+      labels;  ///< class (kUnlabelled: matter without class), 1/256 rays
 
   bool operator==(const CellEvidence& other) const;
 };

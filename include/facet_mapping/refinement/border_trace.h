@@ -20,7 +20,8 @@ struct BorderPoint {
   std::array<std::uint32_t, 2> vertices{};  ///< ends of the edge
   std::array<double, 2> weights{};          ///< barycentric: phi_k at the point
   Eigen::Vector3d point_in_cam = Eigen::Vector3d::Zero();
-  double position = 0.0;  ///< along the line, 0 at the first pixel, 1 at the second
+  double position = 0.0;   ///< along the line, 0 at the first pixel, 1 at the second
+  bool occluding = false;  ///< the surface turns away here; else two classes share the edge
 };
 
 /// Follows the visible surface of one class in image space, facet by facet, to its end.
@@ -33,8 +34,9 @@ class BorderTracer {
 
   /// Walks from pixel `from`, which shows `facet`, straight towards pixel `to` and returns where
   /// the class of `facet` ends: at an edge to a facet of another class, at an edge beyond which the
-  /// surface turns away (an occluding contour), or at the border of an open mesh. Nothing if the
-  /// class goes on up to `to`: then something nearer hides it.
+  /// surface turns away (an occluding contour). Nothing if the class goes on up to `to` (then
+  /// something nearer hides it) or the mesh ends: the border of an open mesh is where the
+  /// reconstruction ends and not where an object does.
   std::optional<BorderPoint> trace(int facet,
                                    const Eigen::Vector2d& from,
                                    const Eigen::Vector2d& to) const;

@@ -68,6 +68,7 @@ class LevelProblem {
                      std::size_t pixels) const;
   VectorField find_step(const Shape& shape, const SmoothingTerm& smoothing) const;
   double semantic_scale() const;
+  VertexField semantic_field(const Shape& shape) const;
   void evaluate_semantic(Shape* shape, bool with_gradient) const;
   void smooth_planes(const TriangleMesh& mesh);
 

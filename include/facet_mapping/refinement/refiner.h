@@ -20,6 +20,8 @@ enum class SemanticMode {
   kOff,       ///< photometric only (Vu et al. 2012)
   kNormal,    ///< only the part of the semantic gradient along the vertex normal (the paper)
   kFull,      ///< the whole gradient: class borders may also slide over the surface
+  kSplit,     ///< along the normal at occluding contours, across it where classes share an edge:
+              ///< contours move the shape, borders on a continuous surface slide over it
   kPairwise,  ///< masks of one view against those of another (Blaha et al. 2017), for comparison
 };
 

@@ -45,20 +45,31 @@ SemanticEnergy semantic_energy(const TriangleMesh& mesh,
                                const std::vector<SurfaceView>& surfaces,
                                const std::vector<SemanticGate>& gates);
 
+/// The first variation of the energy in two parts, whose sum it is.
+struct SemanticGradient {
+  VertexField contours;  ///< from borders where the surface turns away and hides another
+  VertexField seams;     ///< from borders where facets of two classes share an edge
+};
+
 /// The first variation of the energy under fixed gates. The paper moves points along their own
 /// viewing ray, which moves nothing in that image; what changes the rendered masks is the motion of
 /// the borders between rendered classes:
 ///   dE/dX_k = sum over border points of phi_k [e_a - e_b] DP_i(x)^T m,
 /// per pixel of border, m the image normal from class a to class b, e_q the gated cost of showing
-/// class q there. At an occluding contour the border belongs to the nearer surface alone.
+/// class q there. At an occluding contour the border belongs to the nearer surface alone. Left out:
+/// the end of an open mesh, which is where the reconstruction ends and not where an object does.
 /// The curvature lets a vertex move about one pixel where all votes agree.
-VertexField semantic_gradient(const TriangleMesh& mesh,
-                              const std::vector<SemanticView>& views,
-                              const std::vector<SurfaceView>& surfaces,
-                              const std::vector<SemanticGate>& gates);
+SemanticGradient semantic_gradient(const TriangleMesh& mesh,
+                                   const std::vector<SemanticView>& views,
+                                   const std::vector<SurfaceView>& surfaces,
+                                   const std::vector<SemanticGate>& gates);
 
 /// Leaves only the part of the gradient along the vertex normals: it moves the shape but does not
 /// slide class borders over the surface.
 void keep_normal_part(const TriangleMesh& mesh, VertexField* field);
+
+/// Leaves only the part across the vertex normals: it slides class borders over the surface but
+/// does not move the shape.
+void keep_tangential_part(const TriangleMesh& mesh, VertexField* field);
 
 }  // namespace facet_mapping

@@ -11,6 +11,7 @@
 
 #include <facet_mapping/LabeledMesh.h>
 #include <ros/node_handle.h>
+#include <ros/wall_timer.h>
 
 #include "facet_mapping/ros/job_queue.h"
 #include "facet_mapping/ros/mesh_publisher.h"
@@ -33,6 +34,7 @@ class MapMeshInput {
   void receive(const LabeledMeshConstPtr& message);
   MeshReceiver::Result apply(const LabeledMesh& message);
   void request_full();
+  void request_first();
 
   std::string map_frame_;
   NodeDiagnostics* diagnostics_;
@@ -43,6 +45,7 @@ class MapMeshInput {
   ros::ServiceClient client_;
   JobQueue jobs_;
   ros::Subscriber subscriber_;
+  ros::WallTimer first_timer_;
 };
 
 }  // namespace facet_mapping

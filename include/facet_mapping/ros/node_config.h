@@ -63,7 +63,7 @@ struct MapperNodeConfig {
   PoseInput pose;
   MeshOutput output;
   int queue_size = 500;          ///< frames that may wait for the map
-  double update_period_s = 1.0;  ///< least time between two updates, wall time
+  double update_period_s = 0.5;  ///< least time between two updates, wall time
   std::string corrected_frame;   ///< whose poses come on keyframe_poses; "": the sensors' own
   std::string archive_folder;    ///< "": the system's temporary folder
   MapConfig map = bounded_map();

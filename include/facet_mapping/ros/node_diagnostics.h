@@ -17,7 +17,8 @@
 namespace facet_mapping {
 
 /// Thread-safe. Every reason for dropping something has a counter "problem: REASON"; the status is
-/// WARN while a problem is fresh or an input has never come.
+/// WARN while a problem is fresh or an input has never come. Published every ~diagnostic_period
+/// seconds (default 1).
 class NodeDiagnostics {
  public:
   NodeDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);

@@ -47,13 +47,13 @@ int run_node(int argc, char** argv, const std::string& name) {
     return 0;
   }
   ros::init(argc, argv, name);
+  // The end of the last handle ends rosconsole, too, and with it the sentence below.
+  const ros::NodeHandle keeps_the_log_open;
   std::unique_ptr<Node> node;
   try {
     node = std::make_unique<Node>(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const std::exception& e) {
-    // Not ROS_FATAL: the process may end before its console has written anything.
-    std::cerr << e.what() << std::endl;
-    ros::shutdown();
+    ROS_FATAL("%s", e.what());
     return 1;
   }
   spin_until_shutdown();

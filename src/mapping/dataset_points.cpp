@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/mapping/dataset_points.h"
+
+#include <stdexcept>
+
+#include "facet_mapping/labels/label_image.h"
+
+namespace facet_mapping {
+
+cv::Mat frame_label_image(const DatasetFrame& frame, const LabelSet& labels) {
+  if (frame.labels.empty() || labels.empty()) {
+    return {};
+  }
+  const cv::Mat ids = read_labels(frame.labels);
+  return resize_label_image(decode_label_image(ids, "mono16", labels),
+                            {frame.view.camera.width, frame.view.camera.height});
+}
+
+DatasetPoints::DatasetPoints(const Dataset& dataset,
+                             const LabelSet& labels,
+                             const DatasetPointsConfig& config)
+    : dataset_(dataset), labels_(labels), config_(config) {
+  if (!config.stereo && !config.lidar) {
+    throw std::invalid_argument("no source of points: choose stereo, lidar or both");
+  }
+  if (config.stereo && !dataset.has_right) {
+    throw std::invalid_argument(
+        "the dataset has no right images, so there are no stereo points: use its LiDAR scans or "
+        "the points of a mesh");
+  }
+  if (config.lidar && !dataset.has_scans) {
+    throw std::invalid_argument(
+        "the dataset has no LiDAR scans: use stereo points or the points of a mesh");
+  }
+  config_.stereo_config.excluded_labels = labels.sky_ids();
+}
+
+std::vector<SensorPoints> DatasetPoints::read(std::size_t index) const {
+  const DatasetFrame& frame = dataset_.frames.at(index);
+  const cv::Mat labels = frame_label_image(frame, labels_);
+  std::vector<SensorPoints> points;
+  if (config_.stereo && !frame.right_image.empty()) {
+    points.push_back(read_stereo(frame, labels));
+  }
+  if (config_.lidar && !frame.scan.empty()) {
+    points.push_back(read_lidar(frame, labels));
+  }
+  return points;
+}
+
+SensorPoints DatasetPoints::read_stereo(const DatasetFrame& frame, const cv::Mat& labels) const {
+  SensorPoints result{"stereo", {frame.stamp, frame.view.world_from_cam, {}}};
+  result.frame.points = stereo_points(read_gray(frame.left_image),
+                                      read_gray(frame.right_image),
+                                      labels,
+                                      frame.view.camera,
+                                      dataset_.baseline_m(),
+                                      config_.stereo_config);
+  return result;
+}
+
+SensorPoints DatasetPoints::read_lidar(const DatasetFrame& frame, const cv::Mat& labels) const {
+  std::vector<Eigen::Vector3f> scan;
+  for (const Eigen::Vector4f& hit : read_scan(frame.scan)) {
+    scan.emplace_back(hit.head<3>());
+  }
+  SensorPoints result{"lidar",
+                      {frame.stamp, frame.view.world_from_cam * dataset_.left_from_velo, {}}};
+  result.frame.points = thin_cloud(scan, config_.cloud_config);
+  if (!labels.empty()) {
+    ImageLabelConfig config;
+    config.excluded_labels = labels_.sky_ids();
+    label_points_from_image(
+        result.frame.points, dataset_.left_from_velo, frame.view.camera, labels, config);
+  }
+  return result;
+}
+
+}  // namespace facet_mapping
