@@ -57,6 +57,9 @@ SensorPoints DatasetPoints::read_stereo(const DatasetFrame& frame, const cv::Mat
                                       frame.view.camera,
                                       dataset_.baseline_m(),
                                       config_.stereo_config);
+  const std::vector<LabeledPoint> sky =
+      sky_points(labels, frame.view.camera, labels_.sky_ids(), config_.sky_config);
+  result.frame.points.insert(result.frame.points.end(), sky.begin(), sky.end());
   return result;
 }
 

@@ -61,8 +61,10 @@ bool LabeledMap::admit(const LabeledPoint& point,
     ++report->not_finite;
     return false;
   }
+  const ClassInfo* info = point.label == kUnlabelled ? nullptr : labels_.find(point.label);
+  const bool is_sky = info != nullptr && info->sky;
   const double range = point.position.cast<double>().norm();
-  if (range < config_.min_range_m || range > range_scale_ * config_.max_range_m) {
+  if (range < config_.min_range_m || (range > reach() && !is_sky)) {
     ++report->out_of_range;
     return false;
   }
@@ -71,7 +73,6 @@ bool LabeledMap::admit(const LabeledPoint& point,
   if (point.label == kUnlabelled) {
     return true;
   }
-  const ClassInfo* info = labels_.find(point.label);
   if (info == nullptr) {
     ++report->unknown_label;
     ray->label = kUnlabelled;
@@ -80,7 +81,7 @@ bool LabeledMap::admit(const LabeledPoint& point,
   if (info->ignore) {
     ray->label = kUnlabelled;
   }
-  ray->open = info->sky;
+  ray->open = is_sky;
   if (info->dynamic && config_.dynamic == DynamicPolicy::kCarve) {
     ++report->dynamic_carving;
     ray->open = true;
@@ -118,7 +119,11 @@ CarvingFrame LabeledMap::carving_frame(const PointFrame& frame, FrameReport* rep
   for (const LabeledPoint& point : frame.points) {
     CarvingFrame::Ray ray;
     if (admit(point, report, &ray)) {
-      ray.point = frame.world_from_sensor * point.position.cast<double>();
+      Eigen::Vector3d position = point.position.cast<double>();
+      if (ray.open && position.norm() > reach()) {
+        position *= reach() / position.norm();  // toward the sky there is no end
+      }
+      ray.point = frame.world_from_sensor * position;
       rays.rays.push_back(ray);
     }
   }

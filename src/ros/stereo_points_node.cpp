@@ -190,16 +190,20 @@ void StereoPointsNode::accept(const StampedParts& parts) {
 void StereoPointsNode::match(const Pair& pair) {
   const ros::WallTime start = ros::WallTime::now();
   const cv::Mat labels = segmentation_.read(pair.segmentation, pair.left.size());
-  const std::vector<LabeledPoint> points =
+  std::vector<LabeledPoint> points =
       stereo_points(pair.left, pair.right, labels, pair.camera, pair.baseline_m, config_.stereo);
   if (points.empty()) {
     diagnostics_.complain("no points",
                           "not one point could be matched in a pair; is it rectified, textured, "
                           "and not swapped?");
   }
+  const std::vector<LabeledPoint> sky =
+      sky_points(labels, pair.camera, labels_.sky_ids(), config_.sky);
+  points.insert(points.end(), sky.begin(), sky.end());
   points_pub_.publish(cloud_from_points(points, pair.header));
   diagnostics_.count("clouds published");
-  diagnostics_.count("points published", points.size());
+  diagnostics_.count("points published", points.size() - sky.size());
+  diagnostics_.count("rays toward the sky", sky.size());
   diagnostics_.set("seconds of the last pair", (ros::WallTime::now() - start).toSec());
 }
 

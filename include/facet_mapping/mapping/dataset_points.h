@@ -11,6 +11,7 @@
 #include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/points/labeled_point.h"
 #include "facet_mapping/points/lidar_points.h"
+#include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
 
 namespace facet_mapping {
@@ -19,6 +20,7 @@ struct DatasetPointsConfig {
   bool stereo = true;  ///< points of the stereo pair
   bool lidar = false;  ///< points of the scan
   StereoConfig stereo_config;
+  SkyConfig sky_config;
   CloudConfig cloud_config;
 };
 

@@ -102,6 +102,7 @@ class LabeledMap {
 
   bool is_keyframe(const PointFrame& frame, const std::string& sensor);
   bool admit(const LabeledPoint& point, FrameReport* report, CarvingFrame::Ray* ray) const;
+  double reach() const { return range_scale_ * config_.max_range_m; }
   CarvingFrame carving_frame(const PointFrame& frame, FrameReport* report) const;
   void integrate();
   void forget();

@@ -9,6 +9,7 @@
 
 #include "facet_mapping/mapping/labeled_map.h"
 #include "facet_mapping/points/lidar_points.h"
+#include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/ros/parameters.h"
@@ -48,6 +49,7 @@ struct StereoPointsNodeConfig {
   SegmentationInput segmentation;
   int queue_size = 200;  ///< pairs that may wait for the matcher
   StereoConfig stereo;
+  SkyConfig sky;
 };
 
 /// A map whose memory does not grow with the length of the drive.
