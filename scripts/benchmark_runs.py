@@ -79,6 +79,16 @@ def insert(options):
           ["points", "rays", "cells", "wall s", "processor s", "peak MiB"], rows)
 
 
+def drive(options):
+    for name, arguments in (("2000 keyframes, frozen beyond 60 m", ["2000", "60"]),
+                            ("600 keyframes, 400 MiB", ["600", "60", "400"])):
+        print("\n### A long street: %s\n" % name)
+        sys.stdout.flush()
+        command = [os.path.join(options.programs, "long_drive"), *arguments]
+        say("  " + " ".join(command))
+        subprocess.run(command, check=True)
+
+
 def evaluate(options, meshes, dataset, arguments):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scores.json")
@@ -162,6 +172,7 @@ def fountain(options):
 
 
 PARTS = {"trace": (trace, None), "insert": (insert, None),
+         "drive": (drive, None),
          "kitti": (kitti, "kitti_drive_0009"), "fountain": (fountain, "fountain_p11")}
 
 
