@@ -21,12 +21,13 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
              "rays",
              "graph_cut: most evidence that a cell can have",
              kPositive);
-  table->add("carving/neighbour_share",
-             &c->neighbour_share,
-             "",
-             "share of its neighbours' mean free-space evidence that a cell gets too: fewer curtains at "
-             "depth edges, more holes",
-             {0, 1});
+  table->add(
+      "carving/neighbour_share",
+      &c->neighbour_share,
+      "",
+      "share of its neighbours' mean free-space evidence that a cell gets too: fewer curtains at "
+      "depth edges, more holes",
+      {0, 1});
   table->add("carving/free_space_threshold",
              &c->free_space_threshold,
              "rays",
