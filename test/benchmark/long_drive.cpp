@@ -3,8 +3,6 @@
 // What a keyframe costs as the drive grows longer: a Markdown table, one line per tenth.
 // Usage: long_drive [keyframes] [frozen_beyond_m] [memory_budget_mb] [keyframes per update]
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "facet_mapping/geometry/manifold.h"
@@ -120,8 +119,10 @@ void run(int keyframes, const MapConfig& config, int batch) {
   LabeledMap map(street_labels(), config);
   const double base = resident_mib();
   std::printf(
-      "| keyframes | processor ms a keyframe | most of an update | vertices | rays | reached %% | MiB "
-      "accounted | MiB resident | range scale | surface |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| keyframes | processor ms a keyframe | most of an update | vertices | rays | reached %% | "
+      "MiB "
+      "accounted | MiB resident | range scale | surface "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   double seconds = 0.0;
   double peak = 0.0;
   const int tenth = std::max(1, keyframes / 10);
@@ -153,6 +154,7 @@ int main(int argc, char** argv) {
   facet_mapping::MapConfig config;
   config.frozen_beyond_m = argument(2, 60.0);
   config.memory_budget_mb = argument(3, 0.0);
-  facet_mapping::run(static_cast<int>(argument(1, 300.0)), config, static_cast<int>(argument(4, 4.0)));
+  facet_mapping::run(
+      static_cast<int>(argument(1, 300.0)), config, static_cast<int>(argument(4, 4.0)));
   return 0;
 }

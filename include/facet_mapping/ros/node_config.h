@@ -55,7 +55,7 @@ struct StereoPointsNodeConfig {
 /// A map whose memory does not grow with the length of the drive.
 inline MapConfig bounded_map() {
   MapConfig config;
-  config.frozen_beyond_m = 100.0;
+  config.frozen_beyond_m = 70.0;
   return config;
 }
 
