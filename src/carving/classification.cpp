@@ -37,12 +37,13 @@ double sphere_cosine(const Triangulation& triangulation, CellHandle cell, int fa
 }
 
 double cached_cosine(const Triangulation& triangulation, CellHandle cell, int facet) {
-  constexpr float kUnknown = 1.5F;  // above any cosine
-  float& cosine = cell->info().cosine[facet];
-  if (cosine > kUnknown) {
-    cosine = static_cast<float>(sphere_cosine(triangulation, cell, facet));
+  constexpr double kOne = 127.0;
+  std::int8_t& cosine = cell->info().cosine[facet];
+  if (cosine == CellInfo::kUnknown) {
+    cosine =
+        static_cast<std::int8_t>(std::lround(kOne * sphere_cosine(triangulation, cell, facet)));
   }
-  return cosine;
+  return cosine / kOne;
 }
 
 /// Surface quality of Labatut et al. 2009: 1 - min(cos phi, cos psi), 0 for a well-shaped surface

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "carving/compact_vector.h"
+
 #include "facet_mapping/geometry/label.h"
 
 namespace facet_mapping::carving {
@@ -37,12 +39,15 @@ class LabelEvidence {
   Label best() const;
   /// (best - second best) / sum over the classes, 0 without evidence.
   float margin() const;
-  const std::vector<std::pair<Label, Weight>>& weights() const { return weights_; }
+  std::vector<std::pair<Label, Weight>> weights() const {
+    return {weights_.begin(), weights_.end()};
+  }
   /// On the heap.
-  std::size_t bytes() const { return weights_.capacity() * sizeof(weights_[0]); }
+  std::size_t bytes() const { return weights_.capacity() * sizeof(Entry); }
 
  private:
-  std::vector<std::pair<Label, Weight>> weights_;
+  using Entry = std::pair<Label, Weight>;
+  CompactVector<Entry> weights_;
 };
 
 }  // namespace facet_mapping::carving

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "carving/compact_vector.h"
 #include "carving/evidence.h"
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -18,11 +19,13 @@
 namespace facet_mapping::carving {
 
 struct CellInfo {
-  std::uint32_t order = 0;          ///< numbered anew at each extraction, for deterministic ties
-  Weight free = 0;                  ///< free-space evidence
-  LabelEvidence labels;             ///< label evidence of rays that end just in front
-  std::vector<std::uint32_t> rays;  ///< that cross the cell (infinite cell: that leave the hull)
-  std::array<float, 4> cosine{2.0F, 2.0F, 2.0F, 2.0F};  ///< see sphere_cosine; 2: not computed yet
+  CompactVector<std::uint32_t> rays;  ///< that cross the cell (infinite cell: that leave the hull)
+  LabelEvidence labels;               ///< label evidence of rays that end just in front
+  Weight free = 0;                    ///< free-space evidence
+  std::uint32_t order = 0;            ///< numbered anew at each use, for deterministic ties
+  static constexpr std::int8_t kUnknown = -128;
+  /// See sphere_cosine, in 1/127.
+  std::array<std::int8_t, 4> cosine{kUnknown, kUnknown, kUnknown, kUnknown};
   bool is_new = true;        ///< made in this batch: no old ray's evidence is in it
   bool is_changed = true;    ///< its evidence changed since the last extraction
   bool in_region = false;    ///< takes part in the present cut
@@ -42,12 +45,24 @@ struct VertexInfo {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, Kernel>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel>;
+
+/// A cell whose neighbours and vertices, all that a walk reads, lie in one cache line.
+template <typename Base>
+struct alignas(64) AlignedCell : Base {
+  using Base::Base;
+  template <typename Tds>
+  struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL's name
+    using Other = AlignedCell<typename Base::template Rebind_TDS<Tds>::Other>;
+  };
+};
+
+using CellBase = AlignedCell<CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel>>;
 using Tds = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Tds>;
 using CellHandle = Triangulation::Cell_handle;
 using VertexHandle = Triangulation::Vertex_handle;
 using Point = Kernel::Point_3;
+static_assert(sizeof(Tds::Cell) == 128, "two cache lines; millions of cells are held");
 
 inline Point to_point(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
