@@ -95,7 +95,7 @@ def evaluate(options, meshes, dataset, arguments):
         run([os.path.join(options.programs, "evaluate_mesh"), *meshes, dataset, "--json", path,
              *arguments])
         with open(path) as file:
-            return json.load(file)
+            return json.load(file)["meshes"]
 
 
 def map_variants(options, folder, variants):
