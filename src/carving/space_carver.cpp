@@ -77,7 +77,7 @@ class SpaceCarver::Impl {
 
   std::vector<FrameId> update(const std::vector<FrameId>& removed,
                               const std::vector<CarvingFrame>& added);
-  void forget_beyond(const Eigen::Vector3d& center, double radius_m);
+  void forget_beyond(const Eigen::Vector3d& center, double radius_m, std::size_t max_points);
   bool holds(FrameId id) const { return rays_.frames.contains(id) && rays_.frames[id].live > 0; }
   CarvedSurface extract_surface();
   CarvingStats stats() const;
@@ -211,12 +211,15 @@ bool SpaceCarver::Impl::is_outside(const Site& site,
   });
 }
 
-void SpaceCarver::Impl::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
+void SpaceCarver::Impl::forget_beyond(const Eigen::Vector3d& center,
+                                      double radius_m,
+                                      std::size_t max_points) {
   FieldChange change;
   change.center = center;
   change.exact_radius_m = radius_m;
   sites_.all().for_each_id([&](SiteId id) {
-    if (sites_[id].founder != kNoId && is_outside(sites_[id], center, radius_m)) {
+    if (change.removed.size() < max_points && sites_[id].founder != kNoId &&
+        is_outside(sites_[id], center, radius_m)) {
       change.removed.push_back(id);
     }
   });
@@ -299,8 +302,10 @@ std::vector<FrameId> SpaceCarver::update(const std::vector<FrameId>& removed,
                                          const std::vector<CarvingFrame>& added) {
   return impl_->update(removed, added);
 }
-void SpaceCarver::forget_beyond(const Eigen::Vector3d& center, double radius_m) {
-  impl_->forget_beyond(center, radius_m);
+void SpaceCarver::forget_beyond(const Eigen::Vector3d& center,
+                                double radius_m,
+                                std::size_t max_points) {
+  impl_->forget_beyond(center, radius_m, max_points);
 }
 bool SpaceCarver::holds(FrameId id) const {
   return impl_->holds(id);

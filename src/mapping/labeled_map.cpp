@@ -178,18 +178,19 @@ void LabeledMap::integrate() {
   pending_.clear();
 }
 
-// Cells near what is dropped change their shape, hence a margin; and it is not worth the while
-// until the vehicle has gone some way.
+// Cells near what is dropped change their shape, hence a margin. Somewhat more may go than came, so
+// that the work is spread over the updates and still gets done.
 void LabeledMap::forget() {
-  constexpr double kStepInRadii = 0.1;
-  const double radius = freeze_line_.radius_m;
-  const double step = (freeze_line_.center - forgotten_from_).norm();
-  if (!std::isfinite(radius) || (step < kStepInRadii * radius && range_scale_ >= 1.0)) {
-    return;
+  constexpr std::size_t kAtLeast = 1000;
+  const std::size_t vertices = carver_.stats().vertices;
+  const std::size_t came = vertices - std::min(vertices, vertices_left_);
+  if (std::isfinite(freeze_line_.radius_m)) {
+    const double margin =
+        2.0 * config_.carving.steiner_spacing_m + config_.carving.max_facet_edge_m;
+    const std::size_t most = range_scale_ < 1.0 ? vertices : 2 * came + kAtLeast;
+    carver_.forget_beyond(freeze_line_.center, freeze_line_.radius_m + margin, most);
   }
-  const double margin = 2.0 * config_.carving.steiner_spacing_m + config_.carving.max_facet_edge_m;
-  carver_.forget_beyond(freeze_line_.center, radius + margin);
-  forgotten_from_ = freeze_line_.center;
+  vertices_left_ = carver_.stats().vertices;
 }
 
 void LabeledMap::freeze() {
@@ -246,7 +247,7 @@ void LabeledMap::reset() {
   moves_.clear();
   last_pose_.clear();
   freeze_line_ = {};
-  forgotten_from_ = Eigen::Vector3d::Zero();
+  vertices_left_ = 0;
   range_scale_ = 1.0;
   keyframe_count_ = 0;
   last_stamp_ = 0.0;

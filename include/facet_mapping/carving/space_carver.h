@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -104,10 +105,13 @@ class SpaceCarver {
   }
   void remove(const std::vector<FrameId>& ids) { update(ids, {}); }
 
-  /// Drops the points outside the ball none of whose rays enters it, with their rays. Cells inside
+  /// Drops points outside the ball none of whose rays enters it, with their rays; of more than
+  /// `max_points` only the oldest, since each costs about as much as ten insertions. Cells inside
   /// the ball whose vertices all stay keep exactly the evidence that they have; what lies outside
   /// is not kept exact any more.
-  void forget_beyond(const Eigen::Vector3d& center, double radius_m);
+  void forget_beyond(const Eigen::Vector3d& center,
+                     double radius_m,
+                     std::size_t max_points = std::numeric_limits<std::size_t>::max());
 
   /// True while a ray of the frame is in the map.
   bool holds(FrameId id) const;

@@ -118,7 +118,7 @@ class LabeledMap {
   std::map<KeyframeId, Eigen::Isometry3d> moves_;
   std::map<std::string, Eigen::Isometry3d> last_pose_;
   FreezeLine freeze_line_;
-  Eigen::Vector3d forgotten_from_ = Eigen::Vector3d::Zero();
+  std::size_t vertices_left_ = 0;  // by the last forget()
   Eigen::Vector3d newest_position_ = Eigen::Vector3d::Zero();
   double range_scale_ = 1.0;
   std::size_t keyframe_count_ = 0;
