@@ -54,7 +54,7 @@ void EvidenceField::apply(const FieldChange& change) {
   }
   uncount(change.withdrawn);
   for (const SiteId site : change.removed) {
-    remove_vertex(site);
+    remove_vertex(site, change);
   }
   const bool stayed_solid = was_solid && is_solid();
   add_vertices(change.added);
@@ -103,13 +103,33 @@ void EvidenceField::uncount(const std::vector<RayEnd>& ends) {
   }
 }
 
-void EvidenceField::remove_vertex(SiteId site) {
+/// True if evidence counts in a cell. (Cells far outside the ball are not worth their rays.)
+bool EvidenceField::is_exact(CellHandle cell, const FieldChange& change) const {
+  if (!std::isfinite(change.exact_radius_m)) {
+    return true;
+  }
+  const Point center = to_point(change.center);
+  const double limit = change.exact_radius_m * change.exact_radius_m;
+  for (int k = 0; k < 4; ++k) {
+    const VertexHandle vertex = cell->vertex(k);
+    if (!triangulation_.is_infinite(vertex) &&
+        CGAL::squared_distance(vertex->point(), center) <= limit) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void EvidenceField::remove_vertex(SiteId site, const FieldChange& change) {
   const auto at = vertices_.find(site);
   const VertexHandle vertex = at->second;
   if (is_solid()) {
     std::vector<CellHandle> star;
     triangulation_.incident_cells(vertex, std::back_inserter(star));
     for (const CellHandle cell : star) {
+      if (!is_exact(cell, change)) {
+        cell->info().rays.clear();
+      }
       destroy(cell);
     }
     // Some neighbour that stays; its cell is known again after the removal.

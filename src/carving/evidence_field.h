@@ -25,7 +25,7 @@ struct FieldChange {
   std::vector<SiteId> removed;    ///< vertices that go
   std::vector<NewVertex> added;
   std::vector<RayEnd> attached;  ///< rays that come, or that ended elsewhere before
-  /// Rays that do not enter this ball are not traced again.
+  /// Outside this ball evidence counts no more: what changes there need not be traced again.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double exact_radius_m = std::numeric_limits<double>::infinity();
 };
@@ -57,7 +57,8 @@ class EvidenceField {
  private:
   void withdraw(const std::vector<RayEnd>& ends);
   void uncount(const std::vector<RayEnd>& ends);
-  void remove_vertex(SiteId site);
+  void remove_vertex(SiteId site, const FieldChange& change);
+  bool is_exact(CellHandle cell, const FieldChange& change) const;
   void add_vertices(std::vector<NewVertex> vertices);
   VertexHandle add_vertex(const Point& point);
   void attach(const std::vector<RayEnd>& ends);
