@@ -319,12 +319,12 @@ std::size_t EvidenceField::bytes() const {
                       tds.vertices().capacity() * sizeof(Tds::Vertex) +
                       vertices_.size() * kMapEntry;
   const auto add = [&bytes](std::size_t heap) { bytes += heap == 0 ? 0 : heap + kBlock; };
-  for (auto cell = tds.cells().begin(); cell != tds.cells().end(); ++cell) {
-    add(cell->info().rays.capacity() * sizeof(RayId));
-    add(cell->info().labels.bytes());
+  for (const Tds::Cell& cell : tds.cells()) {
+    add(cell.info().rays.capacity() * sizeof(RayId));
+    add(cell.info().labels.bytes());
   }
-  for (auto vertex = tds.vertices().begin(); vertex != tds.vertices().end(); ++vertex) {
-    add(vertex->info().labels.bytes());
+  for (const Tds::Vertex& vertex : tds.vertices()) {
+    add(vertex.info().labels.bytes());
   }
   return bytes;
 }

@@ -75,7 +75,7 @@ void walk_rays(const Triangulation& triangulation,
       arrive(slot);
     }
   }
-  while (open > 0) {
+  while (open > 0) {  // NOLINT(bugprone-infinite-loop): turn() lowers it
     for (Slot& slot : slots) {
       if (!slot.walk.done()) {
         turn(slot);
