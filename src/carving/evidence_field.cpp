@@ -311,6 +311,12 @@ void EvidenceField::take(RayId id, const Hit& hit) {
   }
 }
 
+std::size_t EvidenceField::bytes_unused() const {
+  const auto& tds = triangulation_.tds();
+  return (tds.cells().capacity() - tds.cells().size()) * sizeof(Tds::Cell) +
+         (tds.vertices().capacity() - tds.vertices().size()) * sizeof(Tds::Vertex);
+}
+
 std::size_t EvidenceField::bytes() const {
   constexpr std::size_t kBlock = 16;     // what the allocator adds to a small block
   constexpr std::size_t kMapEntry = 40;  // a node and its bucket in the map of vertices

@@ -53,6 +53,8 @@ class EvidenceField {
   bool is_solid() const { return triangulation_.dimension() == 3; }
   /// Bytes of the triangulation and the evidence in it.
   std::size_t bytes() const;
+  /// Of these, what new cells and vertices will take before more is asked of the system.
+  std::size_t bytes_unused() const;
 
  private:
   void withdraw(const std::vector<RayEnd>& ends);

@@ -82,6 +82,7 @@ class SpaceCarver::Impl {
   CarvedSurface extract_surface();
   CarvingStats stats() const;
   std::size_t bytes() const;
+  std::size_t bytes_unused() const { return field_.bytes_unused(); }
   std::vector<CellEvidence> evidence() const;
 
  private:
@@ -318,6 +319,9 @@ CarvingStats SpaceCarver::stats() const {
 }
 std::size_t SpaceCarver::bytes() const {
   return impl_->bytes();
+}
+std::size_t SpaceCarver::bytes_unused() const {
+  return impl_->bytes_unused();
 }
 std::vector<CellEvidence> SpaceCarver::evidence() const {
   return impl_->evidence();

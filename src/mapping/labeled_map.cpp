@@ -148,8 +148,8 @@ bool LabeledMap::update() {
   }
   integrate();
   surface_ = carver_.extract_surface();
-  freeze();
   obey_budget();
+  freeze();
   return true;
 }
 
@@ -208,18 +208,22 @@ void LabeledMap::freeze() {
   }
 }
 
+// What the map holds grows with its ranges, so they follow the share of the budget that is in use.
 void LabeledMap::obey_budget() {
-  constexpr double kStep = 0.8;
+  constexpr double kFull = 0.85;  // of the budget: one more update has to fit
+  constexpr double kRoomy = 0.7;
+  constexpr double kLeastStep = 0.6;
+  constexpr double kRecovery = 1.05;
   constexpr double kLeast = 0.05;
-  constexpr double kRoomy = 0.5;
   if (config_.memory_budget_mb <= 0.0) {
     return;
   }
-  const double share = static_cast<double>(bytes()) / (config_.memory_budget_mb * 1024.0 * 1024.0);
-  if (share > 1.0) {
-    range_scale_ = std::max(kLeast, kStep * range_scale_);
-  } else if (share < kRoomy && range_scale_ < 1.0) {
-    range_scale_ = std::min(1.0, range_scale_ / kStep);
+  const double used = static_cast<double>(bytes() - carver_.bytes_unused());
+  const double share = used / (config_.memory_budget_mb * 1024.0 * 1024.0);
+  if (share > kFull) {
+    range_scale_ = std::max(kLeast, range_scale_ * std::max(kLeastStep, kFull / share));
+  } else if (share < kRoomy) {
+    range_scale_ = std::min(1.0, range_scale_ * kRecovery);
   }
 }
 

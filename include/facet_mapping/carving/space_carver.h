@@ -124,6 +124,8 @@ class SpaceCarver {
 
   /// Bytes of memory that the map holds, allocator overhead included.
   std::size_t bytes() const;
+  /// Of these, what forgetting has left free for new points.
+  std::size_t bytes_unused() const;
 
   /// The evidence of all finite cells, sorted by their vertices: for tests and inspection.
   std::vector<CellEvidence> evidence() const;
