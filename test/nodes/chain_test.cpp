@@ -250,6 +250,7 @@ TEST_F(ChainTest, ShutdownDoesNotWaitForARunningJob) {
   EXPECT_TRUE(wait_until([] { return !ros::service::exists("refiner/refine", false); }));
   std::vector<std::string> nodes;
   EXPECT_TRUE(wait_until([&] {
+    nodes.clear();  // getNodes() appends
     ros::master::getNodes(nodes);
     return std::find(nodes.begin(), nodes.end(), "/refiner") == nodes.end();
   }));
