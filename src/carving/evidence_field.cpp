@@ -37,15 +37,6 @@ void sort_in_space(std::vector<NewVertex>* vertices) {
 
 }  // namespace
 
-double distance_to_segment(const Eigen::Vector3d& point,
-                           const Eigen::Vector3d& a,
-                           const Eigen::Vector3d& b) {
-  const Eigen::Vector3d ab = b - a;
-  const double length = ab.squaredNorm();
-  const double along = length > 0.0 ? std::clamp((point - a).dot(ab) / length, 0.0, 1.0) : 0.0;
-  return (a + along * ab - point).norm();
-}
-
 void EvidenceField::apply(const FieldChange& change) {
   ++epoch_;
   const bool was_solid = is_solid();
@@ -62,22 +53,9 @@ void EvidenceField::apply(const FieldChange& change) {
   if (!stayed_solid) {
     forget_evidence();
   }
-  if (std::isfinite(change.exact_radius_m)) {
-    skip_outside(change);
-  }
   if (is_solid()) {
     trace();
   }
-}
-
-void EvidenceField::skip_outside(const FieldChange& change) {
-  const auto is_outside = [&](RayId id) {
-    const Ray& ray = store_.rays[id];
-    const Point& p = vertices_.at(ray.site)->point();
-    const Eigen::Vector3d& eye = store_.frames[ray.frame].eye;
-    return distance_to_segment(change.center, {p.x(), p.y(), p.z()}, eye) > change.exact_radius_m;
-  };
-  retrace_.erase(std::remove_if(retrace_.begin(), retrace_.end(), is_outside), retrace_.end());
 }
 
 void EvidenceField::withdraw(const std::vector<RayEnd>& ends) {

@@ -30,10 +30,6 @@ struct FieldChange {
   double exact_radius_m = std::numeric_limits<double>::infinity();
 };
 
-double distance_to_segment(const Eigen::Vector3d& point,
-                           const Eigen::Vector3d& a,
-                           const Eigen::Vector3d& b);
-
 /// Invariant between calls: each cell's evidence is the sum over all rays that cross it. Only rays
 /// that crossed a cell that is gone are traced again (Litvinov & Lhuillier 2014), and only new
 /// cells take their evidence.
@@ -64,7 +60,6 @@ class EvidenceField {
   void add_vertices(std::vector<NewVertex> vertices);
   VertexHandle add_vertex(const Point& point);
   void attach(const std::vector<RayEnd>& ends);
-  void skip_outside(const FieldChange& change);
   void forget_evidence();
   void destroy(CellHandle cell);
   void trace();

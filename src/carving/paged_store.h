@@ -13,14 +13,14 @@
 
 namespace facet_mapping::carving {
 
+constexpr std::uint32_t kNoId = 0xFFFFFFFF;
+
 template <typename Record>
 class PagedStore {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-
   /// Throws std::length_error once all ids are used.
   std::uint32_t push(Record record) {
-    if (next_ == kNone) {
+    if (next_ == kNoId) {
       throw std::length_error("carving: all 2^32 ids are used; reset the map");
     }
     if (next_ % kPageSize == 0) {

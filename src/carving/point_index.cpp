@@ -19,18 +19,6 @@ PointIndex::PointIndex(double min_reach_m, double max_reach_m) {
   }
 }
 
-PointIndex::GridCell PointIndex::grid_cell(const Eigen::Vector3d& point, double spacing_m) {
-  return (point / spacing_m).array().floor().cast<std::int64_t>();
-}
-
-// 21 bits per axis: cells two million cells apart share a key, which costs time, not correctness.
-std::uint64_t PointIndex::key(const GridCell& cell) {
-  constexpr std::uint64_t kMask = (1ULL << 21U) - 1U;
-  return (static_cast<std::uint64_t>(cell.x()) & kMask) |
-         (static_cast<std::uint64_t>(cell.y()) & kMask) << 21U |
-         (static_cast<std::uint64_t>(cell.z()) & kMask) << 42U;
-}
-
 const PointIndex::Level& PointIndex::level_for(double reach_m) const {
   std::size_t level = 0;
   while (level + 1 < levels_.size() && levels_[level].spacing_m < kCellsInReaches * reach_m) {
@@ -41,13 +29,13 @@ const PointIndex::Level& PointIndex::level_for(double reach_m) const {
 
 void PointIndex::insert(const Eigen::Vector3d& point, std::uint32_t id) {
   for (Level& level : levels_) {
-    level.cells[key(grid_cell(point, level.spacing_m))].push_back({point, id});
+    level.cells[grid_key(grid_cell(point, level.spacing_m))].push_back({point, id});
   }
 }
 
 void PointIndex::erase(const Eigen::Vector3d& point, std::uint32_t id) {
   for (Level& level : levels_) {
-    const auto cell = level.cells.find(key(grid_cell(point, level.spacing_m)));
+    const auto cell = level.cells.find(grid_key(grid_cell(point, level.spacing_m)));
     if (cell == level.cells.end()) {
       continue;
     }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Points near a point: hash grids at growing spacings.
+// Points near a point: hash grids at growing spacings. (That distant cells share a key costs time,
+// not correctness.)
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "carving/grid_key.h"
 #include <Eigen/Core>
 
 namespace facet_mapping::carving {
@@ -37,7 +39,7 @@ class PointIndex {
     for (std::int64_t x = low.x(); x <= high.x(); ++x) {
       for (std::int64_t y = low.y(); y <= high.y(); ++y) {
         for (std::int64_t z = low.z(); z <= high.z(); ++z) {
-          const auto cell = grid.cells.find(key(GridCell(x, y, z)));
+          const auto cell = grid.cells.find(grid_key({x, y, z}));
           if (cell == grid.cells.end()) {
             continue;
           }
@@ -55,7 +57,6 @@ class PointIndex {
   std::size_t bytes() const;
 
  private:
-  using GridCell = Eigen::Matrix<std::int64_t, 3, 1>;
   /// The keys of a surface's cells are far from evenly spread.
   struct Mix {
     std::size_t operator()(std::uint64_t key) const { return (key * 0x9E3779B97F4A7C15ULL) >> 20U; }
@@ -66,8 +67,6 @@ class PointIndex {
   };
 
   const Level& level_for(double reach_m) const;
-  static GridCell grid_cell(const Eigen::Vector3d& point, double spacing_m);
-  static std::uint64_t key(const GridCell& cell);
 
   std::vector<Level> levels_;
 };

@@ -124,30 +124,29 @@ std::vector<std::vector<Hit>> RayTracer::trace(const RayEnd* first, std::size_t 
   tbb::parallel_for(std::size_t{0}, (count + kBundle - 1) / kBundle, [&](std::size_t bundle) {
     const std::size_t begin = bundle * kBundle;
     const std::size_t size = std::min(kBundle, count - begin);
+    std::vector<Segments> rays(size);
     std::vector<std::vector<Hit>> part(size);
-    for (std::vector<Hit>& list : part) {
-      list.reserve(128);
+    for (std::size_t k = 0; k < size; ++k) {
+      rays[k] = segments(first[begin + k]);
+      part[k].reserve(128);
     }
-    trace_part(first + begin, size, false, &part);
-    trace_part(first + begin, size, true, &part);
+    trace_part(rays, false, &part);
+    trace_part(rays, true, &part);
     std::move(part.begin(), part.end(), hits.begin() + static_cast<std::ptrdiff_t>(begin));
   });
   return hits;
 }
 
-void RayTracer::trace_part(const RayEnd* first,
-                           std::size_t count,
+void RayTracer::trace_part(const std::vector<Segments>& rays,
                            bool behind,
                            std::vector<std::vector<Hit>>* hits) const {
-  std::vector<Segments> rays(count);
-  std::vector<Weigher> weighers(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    rays[k] = segments(first[k]);
+  std::vector<Weigher> weighers(rays.size());
+  for (std::size_t k = 0; k < rays.size(); ++k) {
     weighers[k] = Weigher(rays[k].source, rays[k].targets[behind ? 1 : 0], rays[k].sigma);
   }
   walk_rays(
       triangulation_,
-      count,
+      rays.size(),
       [&](std::size_t k) { return rays[k].vertex; },
       [&](std::size_t k) -> const Point& { return rays[k].targets[behind ? 1 : 0]; },
       [&](std::size_t k, const RayWalk& walk) {

@@ -72,8 +72,7 @@ class RayTracer {
   class RayList;
 
   Segments segments(const RayEnd& end) const;
-  void trace_part(const RayEnd* first,
-                  std::size_t count,
+  void trace_part(const std::vector<Segments>& rays,
                   bool behind,
                   std::vector<std::vector<Hit>>* hits) const;
   void enter_cell(CellHandle cell, const RayList& rays, std::vector<RayHit>* hits) const;

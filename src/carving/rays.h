@@ -15,7 +15,6 @@ namespace facet_mapping::carving {
 
 using RayId = std::uint32_t;   ///< ascends in the order of insertion
 using SiteId = std::uint32_t;  ///< of a vertex of the triangulation
-constexpr std::uint32_t kNoId = 0xFFFFFFFF;
 
 struct Ray {
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();  ///< point - sensor, metres

@@ -32,6 +32,15 @@ Eigen::Vector3d general_position(const Eigen::Vector3d& center) {
          kJitterM * Eigen::Vector3d(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
 }
 
+double distance_to_segment(const Eigen::Vector3d& point,
+                           const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b) {
+  const Eigen::Vector3d ab = b - a;
+  const double length = ab.squaredNorm();
+  const double along = length > 0.0 ? std::clamp((point - a).dot(ab) / length, 0.0, 1.0) : 0.0;
+  return (a + along * ab - point).norm();
+}
+
 void check_frame(const CarvingFrame& frame) {
   if (!frame.center.allFinite()) {
     throw std::invalid_argument("carving: a sensor position is not finite; check the poses");
@@ -248,7 +257,6 @@ CarvedSurface SpaceCarver::Impl::extract_surface() {
 
 CarvingStats SpaceCarver::Impl::stats() const {
   CarvingStats stats;
-  stats.frames = rays_.frames.size();
   stats.vertices = field_.triangulation().number_of_vertices();
   stats.cells = field_.is_solid() ? field_.triangulation().number_of_finite_cells() : 0;
   stats.rays = rays_.rays.size();

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carving/grid_key.h"
+
 namespace facet_mapping::carving {
 namespace {
-
-constexpr unsigned kAxisBits = 21;
-constexpr std::uint64_t kAxisMask = (1ULL << kAxisBits) - 1U;
 
 std::uint64_t mix(std::uint64_t value) {  // the finaliser of splitmix64
   value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -22,19 +21,6 @@ double unit_interval(std::uint64_t hash) {
   return static_cast<double>(hash >> 11U) * 0x1.0p-53;
 }
 
-std::uint64_t node_key(std::int64_t x, std::int64_t y, std::int64_t z) {
-  return (static_cast<std::uint64_t>(x) & kAxisMask) |
-         (static_cast<std::uint64_t>(y) & kAxisMask) << kAxisBits |
-         (static_cast<std::uint64_t>(z) & kAxisMask) << 2U * kAxisBits;
-}
-
-/// The coordinate of an axis, sign restored.
-double axis_value(std::uint64_t key, unsigned axis) {
-  const auto bits = static_cast<std::int64_t>(key >> (axis * kAxisBits) & kAxisMask);
-  const auto range = static_cast<std::int64_t>(kAxisMask) + 1;
-  return static_cast<double>(bits >= range / 2 ? bits - range : bits);
-}
-
 Eigen::Vector3d jitter(std::uint64_t key) {
   return {unit_interval(mix(key ^ 0x9E3779B97F4A7C15ULL)),
           unit_interval(mix(key + 1)),
@@ -43,14 +29,10 @@ Eigen::Vector3d jitter(std::uint64_t key) {
 
 }  // namespace
 
-SteinerGrid::GridCell SteinerGrid::cell_of(const Eigen::Vector3d& point) const {
-  return (point / spacing_m_).array().floor().cast<std::int64_t>();
-}
-
 // Jitter keeps the nodes in general position, in which the triangulation and the walk are fastest.
 Eigen::Vector3d SteinerGrid::position(std::uint64_t key) const {
-  const Eigen::Vector3d corner(axis_value(key, 0), axis_value(key, 1), axis_value(key, 2));
-  return spacing_m_ * (corner + jitter(key));
+  const GridCell corner(grid_coordinate(key, 0), grid_coordinate(key, 1), grid_coordinate(key, 2));
+  return spacing_m_ * (corner.cast<double>() + jitter(key));
 }
 
 void SteinerGrid::touch(std::uint64_t key, Node* node) {
@@ -65,11 +47,11 @@ void SteinerGrid::count_sensor(const Eigen::Vector3d& center, int change) {
     return;
   }
   const auto reach = static_cast<std::int64_t>(std::ceil(reach_m_ / spacing_m_));
-  const GridCell middle = cell_of(center);
+  const GridCell middle = grid_cell(center, spacing_m_);
   for (std::int64_t x = middle.x() - reach; x <= middle.x() + reach; ++x) {
     for (std::int64_t y = middle.y() - reach; y <= middle.y() + reach; ++y) {
       for (std::int64_t z = middle.z() - reach; z <= middle.z() + reach; ++z) {
-        const std::uint64_t key = node_key(x, y, z);
+        const std::uint64_t key = grid_key({x, y, z});
         if ((position(key) - center).norm() <= reach_m_) {
           Node& node = nodes_[key];
           node.sensors = std::max(0, node.sensors + change);
@@ -85,12 +67,12 @@ void SteinerGrid::count_point(const Eigen::Vector3d& point, int change) {
     return;
   }
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(clearance_m_);
-  const GridCell low = cell_of(point - margin);
-  const GridCell high = cell_of(point + margin);
+  const GridCell low = grid_cell(point - margin, spacing_m_);
+  const GridCell high = grid_cell(point + margin, spacing_m_);
   for (std::int64_t x = low.x(); x <= high.x(); ++x) {
     for (std::int64_t y = low.y(); y <= high.y(); ++y) {
       for (std::int64_t z = low.z(); z <= high.z(); ++z) {
-        const std::uint64_t key = node_key(x, y, z);
+        const std::uint64_t key = grid_key({x, y, z});
         if ((position(key) - point).norm() < clearance_m_) {
           Node& node = nodes_[key];
           node.points = std::max(0, node.points + change);

@@ -49,12 +49,10 @@ class SteinerGrid {
     SiteId site = kNoId;
     bool touched = false;
   };
-  using GridCell = Eigen::Matrix<std::int64_t, 3, 1>;
 
   void count_sensor(const Eigen::Vector3d& center, int change);
   void count_point(const Eigen::Vector3d& point, int change);
   void touch(std::uint64_t key, Node* node);
-  GridCell cell_of(const Eigen::Vector3d& point) const;
   Eigen::Vector3d position(std::uint64_t key) const;
 
   double spacing_m_;

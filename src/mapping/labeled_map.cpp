@@ -102,11 +102,11 @@ FrameReport LabeledMap::add(const PointFrame& frame, const std::string& sensor) 
   if (!report.keyframe) {
     return report;
   }
-  const CarvingFrame rays = carving_frame(frame, &report);
+  CarvingFrame rays = carving_frame(frame, &report);
   report.used = rays.rays.size();
   const auto id = static_cast<KeyframeId>(keyframe_count_++);
   held_[id] = {frame, sensor, 0};
-  pending_.push_back(id);
+  pending_.emplace_back(id, std::move(rays));
   newest_position_ = frame.world_from_sensor.translation();
   last_stamp_ = frame.stamp;
   return report;
@@ -160,22 +160,29 @@ void LabeledMap::integrate() {
   for (const auto& [id, pose] : moves_) {
     Held& held = held_.at(id);
     held.frame.world_from_sensor = pose;
-    if (std::find(pending_.begin(), pending_.end(), id) == pending_.end()) {
+    FrameReport ignored;  // was told when the frame came
+    CarvingFrame moved = carving_frame(held.frame, &ignored);
+    const auto waits = std::find_if(
+        pending_.begin(), pending_.end(), [&](const auto& frame) { return frame.first == id; });
+    if (waits != pending_.end()) {
+      waits->second = std::move(moved);
+    } else {
       removed.push_back(held.carving_id);
-      pending_.push_back(id);
+      pending_.emplace_back(id, std::move(moved));
     }
   }
   moves_.clear();
+  std::vector<KeyframeId> keyframes;
   std::vector<CarvingFrame> added;
-  for (const KeyframeId id : pending_) {
-    FrameReport ignored;  // was told when the frame came
-    added.push_back(carving_frame(held_.at(id).frame, &ignored));
-  }
-  const std::vector<FrameId> ids = carver_.update(removed, added);
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    held_.at(pending_[k]).carving_id = ids[k];
+  for (auto& [id, frame] : pending_) {
+    keyframes.push_back(id);
+    added.push_back(std::move(frame));
   }
   pending_.clear();
+  const std::vector<FrameId> ids = carver_.update(removed, added);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    held_.at(keyframes[k]).carving_id = ids[k];
+  }
 }
 
 // Cells near what is dropped change their shape, hence a margin. Somewhat more may go than came, so

@@ -68,7 +68,6 @@ struct CarvedSurface {
 };
 
 struct CarvingStats {
-  std::size_t frames = 0;  ///< of which a ray is left
   std::size_t vertices = 0;
   std::size_t cells = 0;
   std::size_t rays = 0;

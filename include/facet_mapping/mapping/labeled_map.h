@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "facet_mapping/carving/space_carver.h"
@@ -114,7 +115,7 @@ class LabeledMap {
   SpaceCarver carver_;
   CarvedSurface surface_;
   std::map<KeyframeId, Held> held_;
-  std::vector<KeyframeId> pending_;
+  std::vector<std::pair<KeyframeId, CarvingFrame>> pending_;
   std::map<KeyframeId, Eigen::Isometry3d> moves_;
   std::map<std::string, Eigen::Isometry3d> last_pose_;
   FreezeLine freeze_line_;
