@@ -107,12 +107,7 @@ CarvedSurface make_surface(const Triangulation& triangulation, double max_edge_m
 namespace facet_mapping {
 
 std::size_t CarvedSurface::bytes() const {
-  return mesh.vertices.capacity() * sizeof(mesh.vertices[0]) +
-         mesh.triangles.capacity() * sizeof(mesh.triangles[0]) +
-         mesh.labels.capacity() * sizeof(mesh.labels[0]) +
-         mesh.confidence.capacity() * sizeof(mesh.confidence[0]) +
-         mesh.views.capacity() * sizeof(mesh.views[0]) +
-         vertex_ids.capacity() * sizeof(vertex_ids[0]);
+  return bytes_of(mesh) + bytes_of(vertex_ids);
 }
 
 }  // namespace facet_mapping

@@ -50,6 +50,11 @@ void validate(const TriangleMesh& mesh) {
   }
 }
 
+std::size_t bytes_of(const TriangleMesh& mesh) {
+  return bytes_of(mesh.vertices) + bytes_of(mesh.triangles) + bytes_of(mesh.labels) +
+         bytes_of(mesh.confidence) + bytes_of(mesh.views);
+}
+
 Eigen::Vector3d facet_cross(const TriangleMesh& mesh, std::size_t facet) {
   const Triangle& t = mesh.triangles[facet];
   const Eigen::Vector3d& a = mesh.vertices[t[0]];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/io/dataset.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <stdexcept>
@@ -55,6 +56,15 @@ Dataset read_dataset(const std::string& folder) {
   }
   problems.throw_if_any(folder);
   return dataset;
+}
+
+std::size_t end_frame(const Dataset& dataset, std::size_t first, std::size_t last) {
+  const std::size_t count = dataset.frames.size();
+  if (first >= count || last < first) {
+    throw std::invalid_argument("no frame lies in the chosen range: the dataset has " +
+                                std::to_string(count) + " frames, counted from 0");
+  }
+  return std::min(last, count - 1) + 1;
 }
 
 }  // namespace facet_mapping

@@ -83,11 +83,6 @@ class ChunkCutter {
   std::map<ChunkKey, Draft> drafts_;
 };
 
-template <typename Value>
-std::size_t bytes_of(const std::vector<Value>& values) {
-  return values.capacity() * sizeof(Value);
-}
-
 bool same_content(const MeshChunk& a, const MeshChunk& b) {
   return a.vertices == b.vertices && a.vertex_ids == b.vertex_ids && a.triangles == b.triangles &&
          a.labels == b.labels && a.confidence == b.confidence && a.views == b.views;

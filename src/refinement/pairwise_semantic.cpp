@@ -5,9 +5,8 @@
 #include <array>
 #include <optional>
 
-#include "ordered_reduce.h"
 #include "pixel_forces.h"
-#include "pixel_scatter.h"
+#include "sum_over_pairs.h"
 
 #include "facet_mapping/refinement/spline_image.h"
 #include "facet_mapping/refinement/surface_warp.h"
@@ -119,35 +118,14 @@ PairwiseSemanticEnergy pairwise_semantic_energy(const TriangleMesh& mesh,
                                                 const std::vector<std::vector<int>>& partners,
                                                 bool with_gradient) {
   const std::vector<Eigen::Vector3d> normals = facet_normals(mesh);
-  PairwiseSemanticEnergy total;
-  if (with_gradient) {
-    total.field = VertexField(mesh.vertices.size());
-  }
-  const auto compare_view = [&](std::size_t i) {
-    PixelForces forces;
-    for (const int j : partners[i]) {
-      if (!views[i].segmentation.empty() && !views[j].segmentation.empty()) {
-        const SurfaceWarp warp(
-            mesh, normals, views[i].view, surfaces[i], views[j].view, surfaces[j]);
-        add_pair(views[i].segmentation, views[j].segmentation, warp, &forces);
-      }
+  const auto compare_masks = [&](std::size_t i, std::size_t j, PixelForces* forces) {
+    if (!views[i].segmentation.empty() && !views[j].segmentation.empty()) {
+      const SurfaceWarp warp(mesh, normals, views[i].view, surfaces[i], views[j].view, surfaces[j]);
+      add_pair(views[i].segmentation, views[j].segmentation, warp, forces);
     }
-    return forces;
   };
-  ordered_reduce(views.size(), compare_view, [&](std::size_t i, const PixelForces& forces) {
-    total.sum += forces.energy;
-    total.pixels += forces.pixels;
-    if (with_gradient && !forces.force.empty()) {
-      scatter_to_vertices(mesh,
-                          normals,
-                          views[i].view,
-                          surfaces[i].image,
-                          forces.force,
-                          forces.curvature,
-                          &total.field);
-    }
-  });
-  return total;
+  return sum_over_pairs<PairwiseSemanticEnergy>(
+      mesh, normals, views, surfaces, partners, with_gradient, compare_masks);
 }
 
 }  // namespace facet_mapping

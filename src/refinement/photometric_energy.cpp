@@ -4,9 +4,8 @@
 
 #include <optional>
 
-#include "ordered_reduce.h"
 #include "pixel_forces.h"
-#include "pixel_scatter.h"
+#include "sum_over_pairs.h"
 
 #include "facet_mapping/refinement/surface_warp.h"
 
@@ -66,37 +65,17 @@ PhotometricEnergy photometric_energy(const TriangleMesh& mesh,
                                      const ZnccConfig& config,
                                      bool with_gradient) {
   const std::vector<Eigen::Vector3d> normals = facet_normals(mesh);
-  PhotometricEnergy total;
-  if (with_gradient) {
-    total.field = VertexField(mesh.vertices.size());
-  }
-  const auto compare_view = [&](std::size_t i) {
-    PixelForces forces;
-    for (const int j : partners[i]) {
-      const WarpedImage warp =
-          warp_image(mesh, normals, views[i].view, surfaces[i], views[j], surfaces[j]);
-      add_pair(
-          warp,
-          zncc_energy(
-              views[i].reference, views[i].stats, warp.warped, warp.valid, config, with_gradient),
-          &forces);
-    }
-    return forces;
+  const auto compare = [&](std::size_t i, std::size_t j, PixelForces* forces) {
+    const WarpedImage warp =
+        warp_image(mesh, normals, views[i].view, surfaces[i], views[j], surfaces[j]);
+    add_pair(
+        warp,
+        zncc_energy(
+            views[i].reference, views[i].stats, warp.warped, warp.valid, config, with_gradient),
+        forces);
   };
-  ordered_reduce(views.size(), compare_view, [&](std::size_t i, const PixelForces& forces) {
-    total.sum += forces.energy;
-    total.pixels += forces.pixels;
-    if (!forces.force.empty()) {
-      scatter_to_vertices(mesh,
-                          normals,
-                          views[i].view,
-                          surfaces[i].image,
-                          forces.force,
-                          forces.curvature,
-                          &total.field);
-    }
-  });
-  return total;
+  return sum_over_pairs<PhotometricEnergy>(
+      mesh, normals, views, surfaces, partners, with_gradient, compare);
 }
 
 }  // namespace facet_mapping

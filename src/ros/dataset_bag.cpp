@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/dataset_bag.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -131,8 +130,8 @@ class BagWriter {
 DatasetBagReport write_frames(const Dataset& dataset,
                               const std::string& path,
                               const DatasetBagOptions& options,
+                              std::size_t end,
                               const BagProgress& progress) {
-  const std::size_t end = std::min(options.last_frame, dataset.frames.size() - 1) + 1;
   BagWriter writer(dataset, path, options);
   writer.write_rig(dataset.frames[options.first_frame]);
   for (std::size_t k = options.first_frame; k < end; ++k) {
@@ -150,13 +149,10 @@ DatasetBagReport write_dataset_bag(const Dataset& dataset,
                                    const std::string& bag_path,
                                    const DatasetBagOptions& options,
                                    const BagProgress& progress) {
-  if (options.first_frame >= dataset.frames.size() || options.last_frame < options.first_frame) {
-    throw std::invalid_argument("no frame lies in the chosen range: the dataset has " +
-                                std::to_string(dataset.frames.size()) + " frames, counted from 0");
-  }
+  const std::size_t end = end_frame(dataset, options.first_frame, options.last_frame);
   const std::string temporary = temporary_beside(bag_path);
   try {
-    const DatasetBagReport report = write_frames(dataset, temporary, options, progress);
+    const DatasetBagReport report = write_frames(dataset, temporary, options, end, progress);
     publish_file(temporary, bag_path);
     return report;
   } catch (const rosbag::BagException& error) {

@@ -24,16 +24,6 @@ bool everything(const ChunkKey& /*key*/) {
   return true;
 }
 
-std::size_t bytes_of(const MeshState& state) {
-  const TriangleMesh& mesh = state.mesh;
-  return mesh.vertices.capacity() * sizeof(mesh.vertices[0]) +
-         mesh.triangles.capacity() * sizeof(mesh.triangles[0]) +
-         mesh.labels.capacity() * sizeof(mesh.labels[0]) +
-         mesh.confidence.capacity() * sizeof(mesh.confidence[0]) +
-         mesh.views.capacity() * sizeof(mesh.views[0]) +
-         state.vertex_ids.capacity() * sizeof(state.vertex_ids[0]);
-}
-
 }  // namespace
 
 MeshPublisher::MeshPublisher(ros::NodeHandle private_nh,
@@ -262,7 +252,7 @@ std::size_t MeshPublisher::bytes() const {
   const Lock lock(mutex_);
   std::size_t bytes = chunks_.bytes() + archive_.bytes();
   if (state_) {
-    bytes += bytes_of(*state_);
+    bytes += bytes_of(state_->mesh) + bytes_of(state_->vertex_ids);
   }
   return bytes;
 }

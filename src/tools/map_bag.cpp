@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // map_bag: a dataset folder in, a labelled mesh out, without a ROS graph and without losing a
 // frame.
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -108,15 +107,6 @@ LabelSet read_label_set(const Options& options, const Dataset& dataset) {
   return LabelSet::load(label_file_path(options.labels));
 }
 
-std::size_t end_frame(const Options& options, const Dataset& dataset) {
-  const std::size_t count = dataset.frames.size();
-  if (options.first >= count || options.last < options.first) {
-    throw std::invalid_argument("no frame lies in the chosen range: the dataset has " +
-                                std::to_string(count) + " frames, counted from 0");
-  }
-  return std::min(options.last, count - 1) + 1;
-}
-
 /// Counts over all frames.
 struct Totals {
   std::size_t frames = 0;
@@ -138,7 +128,7 @@ struct Totals {
 template <typename AddFrame>
 Totals for_each_frame(const Options& options, const Dataset& dataset, const AddFrame& add_frame) {
   Totals totals;
-  const std::size_t end = end_frame(options, dataset);
+  const std::size_t end = end_frame(dataset, options.first, options.last);
   ProgressBar bar("points");
   for (std::size_t k = options.first; k < end; k += options.every) {
     add_frame(k, &totals);

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <random>
 #include <string>
 
-#include <sys/resource.h>
-#include <unistd.h>
+#include "benchmark/processor_time.h"
 
 #include "facet_mapping/geometry/manifold.h"
 #include "facet_mapping/mapping/labeled_map.h"
+#include "facet_mapping/ros/process_memory.h"
 #include "facet_mapping/synthetic/street.h"
 #include "facet_mapping/synthetic/street_lidar.h"
 #include "facet_mapping/synthetic/street_raycaster.h"
@@ -25,20 +24,8 @@ namespace {
 
 constexpr double kMiB = 1024.0 * 1024.0;
 
-double processor_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  constexpr double kMicro = 1e-6;
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         kMicro * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
 double resident_mib() {
-  std::ifstream statm("/proc/self/statm");
-  double total = 0.0;
-  double resident = 0.0;
-  statm >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMiB;
+  return static_cast<double>(process_memory().resident) / kMiB;
 }
 
 /// Scans of a bent street with the noise that stereo has at KITTI's focal length and baseline.
@@ -128,12 +115,12 @@ void run(int keyframes, const MapConfig& config, int batch) {
   const int tenth = std::max(1, keyframes / 10);
   for (int k = 0; k < keyframes; ++k) {
     const PointFrame frame = drive.frame(k);
-    const double start = processor_seconds();
+    const double start = benchmarking::processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     map.add(frame);
     if ((k + 1) % batch == 0 || (k + 1) % tenth == 0) {
       map.update();
     }
-    const double cost = processor_seconds() - start;
+    const double cost = benchmarking::processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     seconds += cost;
     peak = std::max(peak, cost);
     if ((k + 1) % tenth == 0) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cells per second of the ray walk and of CGAL's segment traverser, over the same rays.
 #include <algorithm>
-#include <ctime>
 #include <iterator>
 #include <vector>
 
+#include "benchmark/processor_time.h"
 #include "benchmark/street_scans.h"
 #include "carving/ray_bundle.h"
 #include "support/crossed_cells.h"
@@ -82,12 +82,6 @@ void traverse_cells(const Scene& scene, const TracedRay& ray, Cells* cells) {
 /// Cells per second of processor time, one entry a run: other programs may be running.
 using Paces = std::vector<double>;
 
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double median(Paces paces) {
   std::nth_element(paces.begin(), paces.begin() + paces.size() / 2, paces.end());
   return paces[paces.size() / 2];
@@ -122,7 +116,7 @@ template <typename Trace>
 double cells_per_second(const Scene& scene, const Trace& trace) {
   static Block cells(kBlock);
   std::size_t count = 0;
-  const double start = processor_seconds();
+  const double start = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
   for (std::size_t begin = 0; begin < scene.rays.size(); begin += kBlock) {
     for (Cells& ray : cells) {
       ray.clear();
@@ -132,7 +126,7 @@ double cells_per_second(const Scene& scene, const Trace& trace) {
       count += ray.size();
     }
   }
-  return static_cast<double>(count) / (processor_seconds() - start);
+  return static_cast<double>(count) / (processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
 }
 
 struct Comparison {

@@ -57,6 +57,21 @@ TEST(TriangleMesh, ValidationNamesWhatIsWrong) {
   EXPECT_THROW(validate(mesh), std::invalid_argument);
 }
 
+TEST(TriangleMesh, BytesCountEveryAttributeAndSpareRoom) {
+  TriangleMesh mesh;
+  EXPECT_EQ(bytes_of(mesh), 0U);
+  mesh.vertices.reserve(2);
+  EXPECT_EQ(bytes_of(mesh), 2 * 24U);
+  mesh.triangles.reserve(3);
+  EXPECT_EQ(bytes_of(mesh), 2 * 24U + 3 * 12U);
+  mesh.labels.reserve(4);
+  EXPECT_EQ(bytes_of(mesh), 2 * 24U + 3 * 12U + 4 * 2U);
+  mesh.confidence.reserve(5);
+  EXPECT_EQ(bytes_of(mesh), 2 * 24U + 3 * 12U + 4 * 2U + 5 * 4U);
+  mesh.views.reserve(6);
+  EXPECT_EQ(bytes_of(mesh), 2 * 24U + 3 * 12U + 4 * 2U + 5 * 4U + 6 * 2U);
+}
+
 TEST(Manifold, TellsEachDefect) {
   EXPECT_TRUE(check_manifold(tetrahedron()).is_closed_manifold());
   TriangleMesh open = tetrahedron();

@@ -3,6 +3,9 @@
 // The layouts as they should be.
 #include "facet_mapping/io/dataset.h"
 
+#include <limits>
+#include <stdexcept>
+
 #include "io/temp_folder.h"
 #include "support/small_datasets.h"
 #include <gtest/gtest.h>
@@ -133,6 +136,17 @@ TEST(Dataset, KittiRawClimbsUpwards) {
   packet.replace(packet.find("110.0"), 5, "112.5");
   testing::write_text(drive + "/oxts/data/0000000002.txt", packet);
   EXPECT_NEAR(read_dataset(drive).frames[2].view.center().z(), 2.5, 1e-6);
+}
+
+TEST(Dataset, EndFrame) {
+  Dataset dataset;
+  dataset.frames.resize(3);
+  EXPECT_EQ(end_frame(dataset, 0, 1), 2U);
+  EXPECT_EQ(end_frame(dataset, 2, 2), 3U);
+  EXPECT_EQ(end_frame(dataset, 1, std::numeric_limits<std::size_t>::max()), 3U);
+  EXPECT_THROW(end_frame(dataset, 3, 5), std::invalid_argument);
+  EXPECT_THROW(end_frame(dataset, 2, 1), std::invalid_argument);
+  EXPECT_THROW(end_frame(Dataset(), 0, 0), std::invalid_argument);
 }
 
 TEST(Dataset, Strecha) {

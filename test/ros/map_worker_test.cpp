@@ -5,6 +5,7 @@
 #include <future>
 #include <vector>
 
+#include "support/wall_frame.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/geometry/manifold.h"
@@ -12,23 +13,8 @@
 namespace facet_mapping {
 namespace {
 
-/// A wall 6 m in front of a sensor at `x`, as a grid of points.
 PointFrame wall_seen_from(double x) {
-  PointFrame frame;
-  frame.stamp = 100.0 + x;
-  frame.world_from_sensor.translation().x() = x;
-  for (int i = -8; i <= 8; ++i) {
-    for (int j = -8; j <= 8; ++j) {
-      LabeledPoint point;
-      // A little depth, so that the triangulation is in general position.
-      point.position = {0.3F * static_cast<float>(i),
-                        0.3F * static_cast<float>(j),
-                        6.0F + 0.01F * static_cast<float>((i * 7 + j * 3) % 5)};
-      point.label = 1;
-      frame.points.push_back(point);
-    }
-  }
-  return frame;
+  return test::wall_seen_from(x, 8, 0.3F);
 }
 
 class MapWorkerTest : public testing::Test {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/wall_frame.h"
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -16,22 +17,8 @@
 namespace facet_mapping {
 namespace {
 
-/// A wall 6 m in front of a sensor at `x`.
 PointFrame wall_seen_from(double x) {
-  PointFrame frame;
-  frame.stamp = 100.0 + x;
-  frame.world_from_sensor.translation().x() = x;
-  for (int i = -4; i <= 4; ++i) {
-    for (int j = -4; j <= 4; ++j) {
-      LabeledPoint point;
-      point.position = {0.5F * static_cast<float>(i),
-                        0.5F * static_cast<float>(j),
-                        6.0F + 0.01F * static_cast<float>((i * 7 + j * 3) % 5)};
-      point.label = 1;
-      frame.points.push_back(point);
-    }
-  }
-  return frame;
+  return test::wall_seen_from(x, 4, 0.5F);
 }
 
 MapConfig small_map() {

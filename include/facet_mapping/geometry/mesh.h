@@ -41,6 +41,13 @@ inline bool is_gap(const TriangleMesh& mesh, std::size_t facet) {
   return !mesh.views.empty() && mesh.views[facet] == 0;
 }
 
+/// Bytes of memory held beside the object itself, spare capacity included.
+template <typename Value>
+std::size_t bytes_of(const std::vector<Value>& values) {
+  return values.capacity() * sizeof(Value);
+}
+std::size_t bytes_of(const TriangleMesh& mesh);
+
 /// (b - a) x (c - a): normal times twice the area, pointing to free space.
 Eigen::Vector3d facet_cross(const TriangleMesh& mesh, std::size_t facet);
 

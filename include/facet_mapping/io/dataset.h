@@ -3,6 +3,7 @@
 // A folder of posed images: what kitti_to_bag, evaluate_mesh and refine_mesh read.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,10 @@ struct Dataset {
 /// may miss frames. Throws std::runtime_error listing every missing or broken file with what was
 /// expected.
 Dataset read_dataset(const std::string& folder);
+
+/// One past the last of the frames `first` .. `last` (this one included, if there is one) that the
+/// dataset has. Throws std::invalid_argument if it has none of them.
+std::size_t end_frame(const Dataset& dataset, std::size_t first, std::size_t last);
 
 /// CV_8UC1 / CV_8UC3 (BGR) image. Both throw std::runtime_error on a missing, truncated or foreign
 /// file.
