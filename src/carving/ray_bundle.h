@@ -24,7 +24,7 @@ void walk_rays(const Triangulation& triangulation,
                const Target& target,
                const Visit& visit,
                const Finish& finish) {
-  constexpr std::size_t kWalks = 12;  // about what a core can have in flight to memory
+  constexpr std::size_t kWalks = 32;  // beyond what a core can have in flight to memory
   struct Slot {
     RayWalk walk;
     std::size_t ray = 0;

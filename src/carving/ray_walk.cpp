@@ -69,12 +69,12 @@ void RayWalk::choose_axes() {
 }
 
 bool RayWalk::turns_left(const Corner& a, const Corner& b) const {
-  const Turn quick = turn(a, b);
-  return quick.margin > 0.0 ? quick.cross > 0.0
-                            : turns_left_exactly(a.vertex->point(), b.vertex->point());
+  const double quick = turn(a, b);
+  return std::abs(quick) > doubt_ ? quick > 0.0
+                                  : turns_left_exactly(a.vertex->point(), b.vertex->point());
 }
 
-int RayWalk::hidden_corner_exactly(const Corner& reached) const {
+int RayWalk::hidden_corner_exactly(Corner reached) const {
   if (turns_left(reached, ring_[0])) {
     return turns_left(reached, ring_[1]) ? 0 : 2;
   }

@@ -65,28 +65,21 @@ class RayWalk {
     VertexHandle vertex;
     double u;         ///< metres
     double v;         ///< metres
-    double size;      ///< largest coordinate relative to the start, metres: scales the error
     unsigned before;  ///< 1 if nearer than the target along the main axis, exactly
-  };
-
-  /// Which way two corners turn around the segment: left if `cross` is positive, and that is sure
-  /// if `margin` is.
-  struct Turn {
-    double cross;
-    double margin;
-    unsigned right() const { return static_cast<unsigned>(std::signbit(cross)); }
   };
 
   void choose_axes();
   void enter_from_vertex(VertexHandle start);
   void find_separating_facet(bool is_first_known);
   void turn_around_start(CellHandle next, VertexHandle apex);
-  Corner corner(VertexHandle vertex) const;
-  static Turn turn(const Corner& a, const Corner& b);
+  Corner corner(VertexHandle vertex);
+  /// Which way two corners turn around the segment: left if positive, and that is sure if the
+  /// absolute value is above doubt_.
+  static double turn(const Corner& a, const Corner& b) { return a.u * b.v - a.v * b.u; }
   bool turns_left(const Corner& a, const Corner& b) const;
   bool turns_left_exactly(const Point& a, const Point& b) const;
   int hidden_corner(const Corner& reached) const;
-  int hidden_corner_exactly(const Corner& reached) const;
+  int hidden_corner_exactly(Corner reached) const;
   VertexHandle next_corner() const;
   void check_target();
   bool sees_inside() const { return is_inside(target_); }
@@ -102,6 +95,8 @@ class RayWalk {
   double slope_v_ = 0.0;            ///< dv / dw along the segment, at most 1 in size
   double direction_ = 1.0;          ///< 1 if w grows along the segment, else -1
   double end_ = 0.0;                ///< direction times the target's w
+  double reach_ = 0.0;  ///< largest coordinate of a corner met, relative to the start, metres
+  double doubt_ = 0.0;  ///< bound of the rounding error of turn() so far, square metres
   CellHandle cell_;
   std::array<Corner, 3> ring_{};  ///< of the exit facet, counter-clockwise around the segment
   VertexHandle apex_;             ///< the next cell's far corner, if it was asked for before
@@ -134,39 +129,36 @@ inline int index_of(CellHandle cell, VertexHandle vertex) {
          3 * static_cast<int>(cell->vertex(3) == vertex);
 }
 
-inline RayWalk::Corner RayWalk::corner(VertexHandle vertex) const {
+// With slopes of at most 1, a corner's u and v are wrong by at most 9 units in the last place of
+// its largest coordinate and a cross product of two by 90 of the product of these (2^-53 each),
+// hence 1e-14, doubled; the last term covers underflow.
+inline RayWalk::Corner RayWalk::corner(VertexHandle vertex) {
+  constexpr double kRelativeError = 2e-14;
+  constexpr double kUnderflow = 1e-290;
   const double* at = vertex->point().cartesian_begin();
   const double u = at[axes_[0]] - origin_[0];
   const double v = at[axes_[1]] - origin_[1];
   const double w = at[axes_[2]] - origin_[2];
+  reach_ = std::max(std::max(reach_, std::abs(u)), std::max(std::abs(v), std::abs(w)));
+  doubt_ = kRelativeError * (reach_ * reach_) + kUnderflow;
   return {vertex,
           u - slope_u_ * w,
           v - slope_v_ * w,
-          std::max(std::max(std::abs(u), std::abs(v)), std::abs(w)),
           static_cast<unsigned>(direction_ * at[axes_[2]] < end_)};
-}
-
-// Sign of det(target - source, a - source, b - source). With slopes of at most 1, u and v are wrong
-// by at most 9 units in the last place of `size` and their cross product by 90 of the product of
-// the sizes (2^-53 each), hence 1e-14, doubled; the last term covers underflow.
-inline RayWalk::Turn RayWalk::turn(const Corner& a, const Corner& b) {
-  constexpr double kRelativeError = 2e-14;
-  constexpr double kUnderflow = 1e-290;
-  const double cross = a.u * b.v - a.v * b.u;
-  return {cross, std::abs(cross) - (kRelativeError * (a.size * b.size) + kUnderflow)};
 }
 
 // The new corner lies, seen along the segment, opposite to one side of the ring: that side and the
 // new corner are the next exit facet. Returns the ring's corner that is not of it.
 inline int RayWalk::hidden_corner(const Corner& reached) const {
-  const Turn first = turn(reached, ring_[0]);
-  const Turn second = turn(reached, ring_[1]);
-  const Turn third = turn(reached, ring_[2]);
-  if (!(std::min(std::min(first.margin, second.margin), third.margin) > 0.0)) {
+  const double first = turn(reached, ring_[0]);
+  const double second = turn(reached, ring_[1]);
+  const double third = turn(reached, ring_[2]);
+  if (!(std::min(std::min(std::abs(first), std::abs(second)), std::abs(third)) > doubt_)) {
     return hidden_corner_exactly(reached);
   }
   constexpr unsigned kHidden = 0x2064;  // two bits for each pattern of right turns: 0 1 2 1 0 0 2 0
-  const unsigned turns = first.right() + 2U * second.right() + 4U * third.right();
+  const auto right = [](double turn) { return static_cast<unsigned>(std::signbit(turn)); };
+  const unsigned turns = right(first) + 2U * right(second) + 4U * right(third);
   return static_cast<int>((kHidden >> (2U * turns)) & 3U);
 }
 
@@ -178,10 +170,7 @@ inline void RayWalk::check_target() {
 }
 
 inline void RayWalk::fetch_next_cell() const {
-  const auto* next = reinterpret_cast<const char*>(&*cell_->neighbor(exit_));
-  constexpr std::size_t kHotBytes = 4 * sizeof(CellHandle) + 4 * sizeof(VertexHandle);
-  __builtin_prefetch(next);
-  __builtin_prefetch(next + kHotBytes - 1);
+  __builtin_prefetch(&*cell_->neighbor(exit_));
 }
 
 inline VertexHandle RayWalk::next_corner() const {
@@ -191,9 +180,7 @@ inline VertexHandle RayWalk::next_corner() const {
 
 inline void RayWalk::fetch_next_corner() {
   apex_ = next_corner();
-  const double* point = apex_->point().cartesian_begin();
-  __builtin_prefetch(point);
-  __builtin_prefetch(point + 2);
+  __builtin_prefetch(apex_->point().cartesian_begin());
 }
 
 inline void RayWalk::advance() {
@@ -215,7 +202,11 @@ inline void RayWalk::advance() {
   const Corner reached = corner(apex);
   const int hidden = hidden_corner(reached);
   exit_ = index_of(cell_, ring_[hidden].vertex);
-  ring_[hidden] = reached;
+  // One by one: compilers copy the whole by way of memory, before its parts have arrived there.
+  ring_[hidden].vertex = reached.vertex;
+  ring_[hidden].u = reached.u;
+  ring_[hidden].v = reached.v;
+  ring_[hidden].before = reached.before;
   check_target();
 }
 
