@@ -6,39 +6,13 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
-FOUNTAIN_CLASSES = ("ground", "wall", "fountain", "building")
-
-
-def say(text):
-    print(text, file=sys.stderr, flush=True)
-
-
-def run(command):
-    """Runs a program; returns wall seconds, processor seconds and peak memory in MiB."""
-    say("  " + " ".join(command))
-    with tempfile.TemporaryFile() as output:
-        start = time.monotonic()
-        process = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT)
-        _, status, usage = os.wait4(process.pid, 0)
-        wall = time.monotonic() - start
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode != 0:
-            output.seek(0)
-            sys.exit("%s failed:\n%s" % (command[0], output.read().decode(errors="replace")))
-    return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "mib": usage.ru_maxrss / 1024.0}
-
-
-def median_of(runs):
-    return {key: statistics.median(one[key] for one in runs) for key in runs[0]}
+from measuring import (evaluate, markdown_table, median_of, missing_data, run, say,
+                       write_fountain_classes)
 
 
 def table(title, header, rows):
-    print("\n### %s\n\n| %s |\n|%s" % (title, " | ".join(header), "---|" * len(header)))
-    for row in rows:
-        print("| %s |" % " | ".join(row))
-    sys.stdout.flush()
+    print("\n### %s\n\n%s" % (title, markdown_table(header, rows)), flush=True)
 
 
 def google_benchmark(options, name):
@@ -89,15 +63,6 @@ def drive(options):
         subprocess.run(command, check=True)
 
 
-def evaluate(options, meshes, dataset, arguments):
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scores.json")
-        run([os.path.join(options.programs, "evaluate_mesh"), *meshes, dataset, "--json", path,
-             *arguments])
-        with open(path) as file:
-            return json.load(file)["meshes"]
-
-
 def map_variants(options, folder, variants):
     """Runs each variant by turns; returns name -> (mesh, median costs)."""
     programs = {"": options.programs}
@@ -144,7 +109,7 @@ def kitti(options):
         variants = {"%s %s" % (source, cut): [dataset, "--points", source, "--extraction", cut]
                     for source in ("stereo", "lidar") for cut in ("graph_cut", "count")}
         costs = map_variants(options, folder, variants)
-        scores = evaluate(options, [mesh for mesh, _ in costs.values()], dataset,
+        scores = evaluate(options.programs, [mesh for mesh, _ in costs.values()], dataset,
                           ["--max-depth", "30"])
     table("KITTI drive 0009 against LiDAR nearer than 30 m (errors in mm)",
           ["mesh", "facets", "complete %", "median", "mean", "RMS", "5 cm %", "10 cm %", "20 cm %",
@@ -155,15 +120,11 @@ def fountain(options):
     dataset = os.path.join(options.data, "fountain_p11")
     start = os.path.join(dataset, "start_mesh.ply")
     with tempfile.TemporaryDirectory() as folder:
-        labels = os.path.join(folder, "classes.yaml")
-        with open(labels, "w") as file:
-            file.write("classes:\n" + "".join(
-                "  - {id: %d, name: %s, color: [%d, 90, 90]}\n" % (k, name, 60 * k)
-                for k, name in enumerate(FOUNTAIN_CLASSES)))
+        labels = write_fountain_classes(os.path.join(folder, "classes.yaml"))
         common = [dataset, "--points-mesh", start, "--fit-scale", "--labels", labels]
         costs = map_variants(options, folder, {
             cut: common + ["--extraction", cut] for cut in ("graph_cut", "count")})
-        scores = evaluate(options, [start] + [mesh for mesh, _ in costs.values()], dataset,
+        scores = evaluate(options.programs, [start] + [mesh for mesh, _ in costs.values()], dataset,
                           ["--max-error", "0.1"])
     table("fountain-P11 against the laser scan (errors in mm below 100); start_mesh: OpenMVS from "
           "the same points",
@@ -186,9 +147,9 @@ def main():
     options = parser.parse_args()
     for name in options.parts or PARTS:
         function, data = PARTS[name]
-        if data and not os.path.isdir(os.path.join(options.data, data)):
-            print("\n%s: skipped, the data set %s is not in %s (set FACET_MAPPING_DATA)" %
-                  (name, data, options.data))
+        reason = data and missing_data(options.data, data)
+        if reason:
+            print("\n%s: skipped, %s" % (name, reason))
             continue
         say(name)
         function(options)

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "facet_mapping/labels/label_image.h"
 #include "facet_mapping/render/facet_renderer.h"
 
 namespace facet_mapping {
@@ -127,6 +128,26 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
         "none of the chosen views has ground truth that this mesh can be compared with: a depth "
         "image, a scan, or ground-truth labels for a labelled mesh");
   }
+  return result;
+}
+
+MeshEvaluation evaluate_segmentation(const Dataset& dataset, const EvaluationOptions& options) {
+  MeshEvaluation result;
+  result.depth = DepthErrors(options.depth).scores();
+  ConfusionMatrix labels;
+  for (const std::size_t index : chosen_views(dataset, options)) {
+    const DatasetFrame& frame = dataset.frames[index];
+    if (!frame.labels.empty() && !frame.gt_labels.empty()) {
+      const cv::Mat truth = read_labels(frame.gt_labels);
+      labels.add(resize_label_image(read_labels(frame.labels), truth.size()), truth);
+      ++result.label_views;
+    }
+  }
+  if (result.label_views == 0) {
+    throw std::runtime_error(
+        "none of the chosen views has both a segmentation and ground-truth labels");
+  }
+  result.labels = labels.scores(options.min_class_pixels);
   return result;
 }
 

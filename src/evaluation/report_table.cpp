@@ -215,6 +215,16 @@ void add_areas(const std::vector<NamedEvaluation>& meshes,
   }
 }
 
+// Millimetres if the first mesh with depth has small errors, else metres.
+double units_per_metre(const std::vector<NamedEvaluation>& meshes) {
+  for (const NamedEvaluation& mesh : meshes) {
+    if (mesh.evaluation.depth.truth_pixels > 0) {
+      return mesh.evaluation.depth.mae_m < 0.1 ? 1000.0 : 1.0;
+    }
+  }
+  return 1.0;
+}
+
 template <typename Condition>
 bool any(const std::vector<NamedEvaluation>& meshes, const Condition& condition) {
   return std::any_of(meshes.begin(), meshes.end(), [&](const NamedEvaluation& mesh) {
@@ -230,7 +240,7 @@ std::string evaluation_table(const std::vector<NamedEvaluation>& meshes,
   if (meshes.empty()) {
     return "";
   }
-  const double metre = meshes.front().evaluation.depth.mae_m < 0.1 ? 1000.0 : 1.0;
+  const double metre = units_per_metre(meshes);
   TableBuilder table(meshes, metre);
   table.names();
   table.count("facets", [](const auto& e) { return as_double(e.facets); });

@@ -22,6 +22,7 @@ struct Options {
   std::vector<std::string> paths;  ///< meshes, then the dataset
   std::string labels;
   std::string json;
+  bool segmentation = false;
   std::size_t every = 1;
   std::vector<double> bounds;
   EvaluationOptions evaluation;
@@ -78,6 +79,9 @@ void add_options(CLI::App& app, Options& options) {
                  options.labels,
                  "Class list (YAML) for names and the sky flag; default: "
                  "the list in the first mesh that has one");
+  app.add_flag("--segmentation",
+               options.segmentation,
+               "Score the dataset's segmentations too, as the first column");
   app.add_option("--json", options.json, "Write all scores, those of each view too, to this file");
   app.footer(
       "Depth is compared with the depth image of a view (gt_depth/, depth_gt/), or with its LiDAR "
@@ -127,6 +131,9 @@ void run(Options& options) {
   LabelSet labels = options.labels.empty() ? LabelSet() : LabelSet::load(options.labels);
   const std::vector<std::string> names = column_names(meshes);
   std::vector<NamedEvaluation> evaluations;
+  if (options.segmentation) {
+    evaluations.push_back({"segmentation", evaluate_segmentation(dataset, options.evaluation)});
+  }
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const MeshFile file = read_ply(meshes[k]);
     labels = labels.empty() ? file.labels : labels;

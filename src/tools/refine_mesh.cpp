@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // refine_mesh: a mesh and a dataset folder in, a refined, labelled mesh out.
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "perturbation.h"
 #include <CLI/CLI.hpp>
 
 #include "facet_mapping/io/dataset.h"
@@ -30,6 +32,8 @@ struct Options {
   bool right = false;
   bool no_photometric = false;
   bool no_relabel = false;
+  double perturb_px = 0.0;
+  std::uint64_t seed = 1;
   RefinementConfig config;
 };
 
@@ -73,6 +77,13 @@ void add_options(CLI::App* app, Options* options) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app->add_flag("--right", options->right, "use the right images of a stereo pair too");
+  app->add_option("--perturb-px",
+                  options->perturb_px,
+                  "first displace the vertices at random by this standard deviation, pixels of the "
+                  "nearest view: how much a result depends on its start")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  app->add_option("--seed", options->seed, "of --perturb-px")->capture_default_str();
   add_config_options(app, options);
 }
 
@@ -141,6 +152,9 @@ void run(Options options) {
   }
   const std::vector<LabeledView> views = read_views(options, file.labels);
   std::printf("%zu facets, %zu views\n", file.mesh.triangles.size(), views.size());
+  if (options.perturb_px > 0.0) {
+    perturb(views, options.perturb_px, options.seed, &file.mesh);
+  }
   const auto start = std::chrono::steady_clock::now();
   RefinementResult result = refine(file.mesh, views, file.labels, options.config, print_progress);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -66,6 +66,22 @@ class MeshEvaluationTest : public ::testing::Test {
   LabelSet labels_ = some_labels();
 };
 
+TEST_F(MeshEvaluationTest, SegmentationAgainstTheGroundTruthAtItsSize) {
+  cv::Mat segmentation(4, 5, CV_8U, cv::Scalar(2));  // half the size
+  segmentation.row(1).setTo(cv::Scalar(10));
+  dataset_.frames[0].labels = folder_ / "segmentation.png";
+  cv::imwrite(dataset_.frames[0].labels, segmentation);
+  const MeshEvaluation evaluation = evaluate_segmentation(dataset_, {});
+  EXPECT_EQ(evaluation.label_views, 1U);
+  EXPECT_EQ(evaluation.labels.pixels, 40U);
+  EXPECT_DOUBLE_EQ(evaluation.labels.accuracy, 0.5);
+  EXPECT_EQ(evaluation.depth.truth_pixels, 0U);
+}
+
+TEST_F(MeshEvaluationTest, SegmentationThatIsNotThere) {
+  EXPECT_THROW(evaluate_segmentation(dataset_, {}), std::runtime_error);
+}
+
 TEST_F(MeshEvaluationTest, DepthOfAWallTooFar) {
   TriangleMesh mesh;
   add_wall(2.25, -20, 20, 2, mesh);

@@ -72,6 +72,12 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
                              const EvaluationOptions& options = {},
                              const EvaluationProgress& progress = {});
 
+/// Compares the dataset's segmentations themselves with the ground-truth labels of the chosen
+/// views, at the size of the ground truth: label_views and labels are filled, depth is empty.
+/// Throws std::invalid_argument on views that are not there, std::runtime_error on broken files or
+/// if no view has both.
+MeshEvaluation evaluate_segmentation(const Dataset& dataset, const EvaluationOptions& options = {});
+
 /// The mesh without the hidden facets.
 TriangleMesh shown_facets(const TriangleMesh& mesh, const LabelSet& labels, const Hidden& hidden);
 
