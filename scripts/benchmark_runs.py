@@ -147,7 +147,7 @@ def main():
     options = parser.parse_args()
     for name in options.parts or PARTS:
         function, data = PARTS[name]
-        reason = data and missing_data(options.data, data)
+        reason = missing_data(options.data, data)
         if reason:
             print("\n%s: skipped, %s" % (name, reason))
             continue

@@ -57,7 +57,7 @@ def write_fountain_classes(path):
 
 
 def missing_data(data, name):
-    """Why a data set cannot be used; empty if it is there."""
-    if os.path.isdir(os.path.join(data, name)):
+    """Why a data set cannot be used; empty if it is there or none is needed."""
+    if name is None or os.path.isdir(os.path.join(data, name)):
         return ""
     return "the data set %s is not in %s (set FACET_MAPPING_DATA)" % (name, data)

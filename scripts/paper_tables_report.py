@@ -126,16 +126,17 @@ def bar(case, method, path, scale):
 
 def gnuplot(path, lines):
     script = "\n".join(lines) + "\n"
-    subprocess.run(["gnuplot"], input=script.encode(), check=True)
+    subprocess.run(["gnuplot"], input=script.encode(), cwd=os.path.dirname(path), check=True)
     return path
 
 
 def start_of_plot(path, width, height):
     return ["set terminal pngcairo size %d,%d font 'DejaVu Sans,11' noenhanced" % (width, height),
-            "set output '%s'" % path, "set grid ytics lc rgb '#dddddd'"]
+            "set output '%s'" % os.path.basename(path), "set grid ytics back lt 1 lw 1 lc rgb '#cccccc'",
+            "set key outside top center horizontal maxrows 2", "set bmargin 4"]
 
 
-def bar_chart(path, cases, methods, value_path, scale_of, title, lowest):
+def bar_chart(path, cases, methods, value_path, scale_of, title):
     """Groups of bars, a group for each case and a bar for each method."""
     lines = start_of_plot(path, 240 + 220 * len(cases), 520)
     lines.append("$bars << END")
@@ -143,8 +144,7 @@ def bar_chart(path, cases, methods, value_path, scale_of, title, lowest):
         cells = [bar(case, method, value_path, scale_of(case)) for method in methods]
         lines.append('"%s" %s' % (case["title"].replace(", ", "\\n"), " ".join(cells)))
     lines += ["END", "set style data histograms", "set style histogram errorbars gap 1.5 lw 1",
-              "set style fill solid", "set ylabel '%s'" % title, "set key outside top horizontal",
-              "set yrange [%s:*]" % lowest,
+              "set style fill solid", "set ylabel '%s'" % title, "set yrange [0:*]",
               "plot " + ", ".join(
                   "$bars using %d:%d:%d%s lc rgb '%s' title '%s'" %
                   (3 * k + 2, 3 * k + 3, 3 * k + 4, ":xtic(1)" if k == 0 else "",
@@ -163,16 +163,18 @@ def noise_panel(cases, methods, value_path, scale, name, title):
         bars = [bar(case, method, value_path, scale) for method in methods]
         lines.append("%g %s" % (case["noise_level"], " ".join(bars)))
     styles = ["$%s using ($1+%g):%d:%d:%d with yerrorlines lw 2 pt 7 lc rgb '%s' title '%s'" %
-              (name, 0.012 * k, 3 * k + 2, 3 * k + 3, 3 * k + 4, color_of(method), method)
+              (name, 0.012 * (k - (len(methods) - 1) / 2), 3 * k + 2, 3 * k + 3, 3 * k + 4, color_of(method), method)
               for k, method in enumerate(methods)]
     return lines + ["END", "set ylabel '%s'" % title, "plot " + ", ".join(styles)]
 
 
 def noise_plot(path, cases):
-    return gnuplot(path, start_of_plot(path, 1200, 520) + [
-        "set multiplot layout 1,2", "set xlabel 'level of label noise'", "set key bottom left",
+    return gnuplot(path, start_of_plot(path, 1650, 520) + [
+        "set multiplot layout 1,3", "set xlabel 'level of label noise'",
         "set xrange [-0.1:%g]" % (max(case["noise_level"] for case in cases) + 0.1)] +
         noise_panel(cases, METHODS, "depth/mae_m", 1e3, "depth", "depth MAE, mm") +
+        noise_panel(cases, METHODS, "depth/trimmed_mae_m", 1e3, "trimmed",
+                    "depth MAE of errors below 10 medians, mm") +
         noise_panel(cases, ("segmentation",) + METHODS, "labels/f_score", 100, "labels",
                     "label F-score, %"))
 
@@ -180,13 +182,13 @@ def noise_plot(path, cases):
 def plots(output, tabled, noisy):
     files = [bar_chart(os.path.join(output, "depth_mae.png"), tabled, METHODS, "depth/mae_m",
                        lambda case: 100 / center(case, "initial mesh", "depth/mae_m"),
-                       "depth MAE, % of the initial mesh", "0")] if tabled else []
+                       "depth MAE, % of the initial mesh")] if tabled else []
     labelled = [case for case in tabled
                 if center(case, "segmentation", "labels/f_score") is not None]
     if labelled:
         files.append(bar_chart(os.path.join(output, "label_f_score.png"), labelled,
                                ("segmentation",) + METHODS, "labels/f_score", lambda case: 100,
-                               "label F-score, %", "0"))
+                               "label F-score, %"))
     if noisy:
         files.append(noise_plot(os.path.join(output, "noise.png"), noisy))
     return files

@@ -170,22 +170,20 @@ def parse_options():
 def main():
     options = parse_options()
     os.makedirs(options.output, exist_ok=True)
-    cases, skipped, streets = [], [], {}
-    for name in options.parts or PARTS:
-        function, data = PARTS[name]
-        reason = data and missing_data(options.data, data)
-        if reason:
-            say("%s: skipped, %s" % (name, reason))
-            skipped.append("%s: %s" % (name, reason))
-            continue
+    reasons = {name: missing_data(options.data, PARTS[name][1]) for name in options.parts or PARTS}
+    skipped = ["%s: %s" % one for one in reasons.items() if one[1]]
+    for reason in skipped:
+        say("skipped " + reason)
+    cases, streets, files = [], {}, []
+    for name in (name for name, reason in reasons.items() if not reason):
         say(name)
-        cases += function(options, streets)
+        cases += PARTS[name][0](options, streets)
         with open(os.path.join(options.output, "scores.json"), "w") as file:
             json.dump(cases, file, indent=1)
         # After each part, so that a run cut short leaves what it has.
         files = report.write(options.output, cases, skipped, options.quick)
     if not cases:
-        sys.exit("nothing was run: " + "; ".join(skipped))
+        sys.exit("nothing was run")
     for path in files:
         print(path)
 
