@@ -104,17 +104,19 @@ def paired_difference(case, path, pattern, scale):
     return text
 
 
-def noise_table(cases):
-    columns = [("segmentation", "labels/f_score", "%.2f", 100)]
-    columns += [(method, "depth/mae_m", "%.2f", 1e3) for method in METHODS]
-    columns += [(method, "labels/f_score", "%.2f", 100) for method in METHODS]
-    header = ["noise", "segmentation F %"] + ["%s MAE mm" % method for method in METHODS] + \
-        ["%s F %%" % method for method in METHODS] + \
-        ["MAE pairwise - proposed mm", "F pairwise - proposed %"]
-    rows = [["%g" % case["noise_level"]] + [cell(case, *column) for column in columns] +
-            [paired_difference(case, "depth/mae_m", "%+.2f", 1e3),
-             paired_difference(case, "labels/f_score", "%+.2f", 100)] for case in cases]
-    return markdown_table(header, rows)
+# Measure, path, factor, and the methods that have it.
+NOISE_MEASURES = (
+    ("depth MAE, mm", "depth/mae_m", 1e3, METHODS),
+    ("depth MAE of errors below 10 medians, mm", "depth/trimmed_mae_m", 1e3, METHODS),
+    ("label F-score, %", "labels/f_score", 1e2, ("segmentation",) + METHODS))
+
+
+def noise_table(cases, title, path, scale, methods):
+    rows = [["%g" % case["noise_level"]] +
+            [cell(case, method, path, "%.2f", scale) for method in methods] +
+            [paired_difference(case, path, "%+.2f", scale)] for case in cases]
+    header = ["noise", *methods, "pairwise - proposed"]
+    return "### %s\n\n%s" % (title, markdown_table(header, rows))
 
 
 def bar(case, method, path, scale):
@@ -132,7 +134,8 @@ def gnuplot(path, lines):
 
 def start_of_plot(path, width, height):
     return ["set terminal pngcairo size %d,%d font 'DejaVu Sans,11' noenhanced" % (width, height),
-            "set output '%s'" % os.path.basename(path), "set grid ytics back lt 1 lw 1 lc rgb '#cccccc'",
+            "set output '%s'" % os.path.basename(path),
+            "set grid ytics back lt 1 lw 1 lc rgb '#cccccc'",
             "set key outside top center horizontal maxrows 2", "set bmargin 4"]
 
 
@@ -156,27 +159,27 @@ def color_of(method):
     return COLORS[METHODS.index(method)] if method in METHODS else "#222222"
 
 
-def noise_panel(cases, methods, value_path, scale, name, title):
+def noise_panel(cases, name, title, path, scale, methods):
     """Data and plot command of a panel: a line for each method over the level of noise."""
     lines = ["$%s << END" % name]
     for case in cases:
-        bars = [bar(case, method, value_path, scale) for method in methods]
+        bars = [bar(case, method, path, scale) for method in methods]
         lines.append("%g %s" % (case["noise_level"], " ".join(bars)))
-    styles = ["$%s using ($1+%g):%d:%d:%d with yerrorlines lw 2 pt 7 lc rgb '%s' title '%s'" %
-              (name, 0.012 * (k - (len(methods) - 1) / 2), 3 * k + 2, 3 * k + 3, 3 * k + 4, color_of(method), method)
-              for k, method in enumerate(methods)]
+    # Beside each other, so that the bars of equal values are seen.
+    shifts = [0.012 * (k - (len(methods) - 1) / 2) for k in range(len(methods))]
+    style = "$%s using ($1+%g):%d:%d:%d with yerrorlines lw 2 pt 7 lc rgb '%s' title '%s'"
+    styles = [style % (name, shift, 3 * k + 2, 3 * k + 3, 3 * k + 4, color_of(method), method)
+              for k, (method, shift) in enumerate(zip(methods, shifts))]
     return lines + ["END", "set ylabel '%s'" % title, "plot " + ", ".join(styles)]
 
 
 def noise_plot(path, cases):
-    return gnuplot(path, start_of_plot(path, 1650, 520) + [
+    lines = start_of_plot(path, 1650, 520) + [
         "set multiplot layout 1,3", "set xlabel 'level of label noise'",
-        "set xrange [-0.1:%g]" % (max(case["noise_level"] for case in cases) + 0.1)] +
-        noise_panel(cases, METHODS, "depth/mae_m", 1e3, "depth", "depth MAE, mm") +
-        noise_panel(cases, METHODS, "depth/trimmed_mae_m", 1e3, "trimmed",
-                    "depth MAE of errors below 10 medians, mm") +
-        noise_panel(cases, ("segmentation",) + METHODS, "labels/f_score", 100, "labels",
-                    "label F-score, %"))
+        "set xrange [-0.1:%g]" % (max(case["noise_level"] for case in cases) + 0.1)]
+    for k, measure in enumerate(NOISE_MEASURES):
+        lines += noise_panel(cases, "panel%d" % k, *measure)
+    return gnuplot(path, lines)
 
 
 def plots(output, tabled, noisy):
@@ -196,23 +199,28 @@ def plots(output, tabled, noisy):
 
 INTRODUCTION = """# Depth errors and label scores of the four methods
 
-Tables of Romanoni et al. 2017 (ICCV Workshops), made by `scripts/paper_tables`. *Initial mesh*: labelled,
-not refined; *photometric only*: Vu et al. 2012; *pairwise semantic*: Blaha et al. 2017; *proposed*: the
-single-view semantic term, defaults of `refine_mesh`; *segmentation*: the label images that all of them were given.
-After ± stands the standard deviation over the seeds: of the data sets over perturbed starts (vertices displaced
-by 0.25 pixels) while the value itself is from the start as given, of the street over streets. Processor seconds
-are those of `refine_mesh`, all threads together, reading and writing included.
+Tables of Romanoni et al. 2017 (ICCV Workshops), made by `scripts/paper_tables`.
+
+- *Initial mesh*: labelled, not refined; *photometric only*: Vu et al. 2012; *pairwise semantic*:
+  Blaha et al. 2017; *proposed*: the single-view semantic term, defaults of `refine_mesh`;
+  *segmentation*: the label images that all of them were given.
+- After ± stands a standard deviation: of the data sets over perturbed starts (vertices displaced by
+  a quarter of a pixel), while the value itself is from the start as given; of the street over
+  streets, the value being their mean.
+- Processor seconds are those of `refine_mesh`, reading and writing included.
 """
 
 
 def sections(tabled, noisy, skipped, pictures):
-    for number_, title, table in ((1, "depth", depth_table), (2, "labels", label_table)):
-        if tabled:
-            yield "## Table %d: %s" % (number_, title)
-        for case in tabled:
-            yield "### %s\n\n%s\n\n%s" % (case["title"], case["note"], table(case))
+    if tabled:
+        for title, table in (("Table 1: depth", depth_table), ("Table 2: labels", label_table)):
+            yield "## " + title
+            for case in tabled:
+                yield "### %s\n\n%s\n\n%s" % (case["title"], case["note"], table(case))
     if noisy:
-        yield "## Label noise on the street\n\n" + noise_table(noisy)
+        yield "## Label noise on the street"
+        for measure in NOISE_MEASURES:
+            yield noise_table(noisy, *measure)
     yield "\n".join("![%s](%s)" % (os.path.basename(path), os.path.basename(path))
                     for path in pictures)
     if skipped:
