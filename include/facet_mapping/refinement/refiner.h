@@ -31,13 +31,13 @@ struct RefinementConfig {
   bool photometric = true;                        ///< use the photometric flow
   SemanticMode semantic = SemanticMode::kNormal;  ///< how the semantic flow acts
   double semantic_weight = 1.0;     ///< weight of the semantic energy beside the photometric one
-  double smoothing = 0.2;           ///< weight of the umbrella operator, 0..1
-  double thin_plate = 0.2;          ///< weight of the second-order smoothing, 0..1
+  double smoothing = 0.05;          ///< weight of the umbrella operator, 0..1
+  double thin_plate = 0.05;         ///< weight of the second-order smoothing, 0..1
   double planar_smoothing = 3.0;    ///< factor of both on classes marked planar, at least 1
   int ncc_window_px = 5;            ///< side of the correlation window, odd
   int semantic_window_px = 7;       ///< side of the semantic window W, odd
   double min_incidence_cos = 0.15;  ///< pixels that see the surface at a flatter angle do not count
-  int pairs_per_view = 3;           ///< best partners kept for each view
+  int pairs_per_view = 2;           ///< best partners kept for each view
   double max_step_edge_fraction = 0.25;  ///< longest step of a vertex, in mean edge lengths
   double subdivide_px = 24.0;  ///< facets covering more pixels in their best view are split
   bool relabel = true;         ///< run the labelling after each level
