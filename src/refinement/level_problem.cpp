@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+
 #include "facet_mapping/refinement/smoothing_weights.h"
 #include "facet_mapping/refinement/step.h"
 #include "facet_mapping/refinement/view_pairs.h"
@@ -27,6 +29,21 @@ cv::Mat find_sky(const cv::Mat& segmentation, const LabelSet& labels) {
   return sky;
 }
 
+/// Only pixels that show one of the facets are of use; partners are sampled everywhere.
+void keep_part(const std::vector<std::uint8_t>& facets, std::vector<SurfaceView>* surfaces) {
+  tbb::parallel_for(std::size_t{0}, surfaces->size(), [&](std::size_t i) {
+    SurfaceView& surface = (*surfaces)[i];
+    for (int y = 0; y < surface.usable.rows; ++y) {
+      for (int x = 0; x < surface.usable.cols; ++x) {
+        const int facet = surface.image.facets.at<int>(y, x);
+        if (facet < 0 || facets[facet] == 0) {
+          surface.usable.at<std::uint8_t>(y, x) = 0;
+        }
+      }
+    }
+  });
+}
+
 }  // namespace
 
 LevelProblem::LevelProblem(const std::vector<LabeledView>& views,
@@ -48,6 +65,9 @@ std::vector<SurfaceView> LevelProblem::render(const TriangleMesh& mesh) const {
       surfaces[i].usable.setTo(cv::Scalar(0), sky_[i]);
       surfaces[i].sampled.setTo(cv::Scalar(0), sky_[i]);
     }
+  }
+  if (!config_.part.is_everything()) {
+    keep_part(facets_of_part(mesh, config_.part), &surfaces);
   }
   return surfaces;
 }
@@ -106,6 +126,13 @@ void LevelProblem::start(const Shape& shape) {
   umbrella_.emplace(shape.mesh);
   weights_ = smoothing_weights(shape.mesh, poses_, shape.surfaces, config_.pairs_per_view);
   smooth_planes(shape.mesh);
+  if (!config_.part.is_everything()) {
+    const std::vector<std::uint8_t> inside =
+        vertices_inside(shape.mesh, facets_of_part(shape.mesh, config_.part));
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      weights_[k] *= inside[k];
+    }
+  }
 }
 
 void LevelProblem::smooth_planes(const TriangleMesh& mesh) {
