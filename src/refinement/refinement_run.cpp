@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refinement_run.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "facet_mapping/refinement/image_pyramid.h"
 #include "facet_mapping/refinement/subdivision.h"
 
@@ -87,8 +90,13 @@ bool RefinementRun::refine_level(int level) {
 
 void RefinementRun::split_facets(const LevelProblem& problem) {
   const std::size_t facets = current_.triangles.size();
-  current_ = subdivide(
-      current_, best_view_pixels(current_, problem.render(current_)), config_.subdivide_px);
+  std::vector<double> pixels = best_view_pixels(current_, problem.render(current_));
+  if (!config_.part.is_everything()) {
+    const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
+    std::transform(
+        pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
+  }
+  current_ = subdivide(current_, pixels, config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
   }

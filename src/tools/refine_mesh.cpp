@@ -34,6 +34,7 @@ struct Options {
   bool no_relabel = false;
   double perturb_px = 0.0;
   std::uint64_t seed = 1;
+  std::vector<double> box;  ///< mesh frame, metres
   RefinementConfig config;
 };
 
@@ -64,6 +65,9 @@ void add_config_options(CLI::App* app, Options* options) {
   app->add_option("--subdivide-px", config.subdivide_px, "largest facet, pixels")
       ->capture_default_str();
   app->add_flag("--no-relabel", options->no_relabel, "keep the facets' labels");
+  app->add_option("--box", options->box, "refine only this: MIN_X MIN_Y MIN_Z MAX_X MAX_Y MAX_Z")
+      ->expected(6);
+  app->add_option("--classes", config.part.classes, "refine only facets of these classes (ids)");
 }
 
 void add_options(CLI::App* app, Options* options) {
@@ -145,6 +149,13 @@ void print_result(const RefinementResult& result, double seconds) {
 
 void run(Options options) {
   options.config.photometric = !options.no_photometric;
+  if (!options.box.empty()) {
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> bounds(options.box.data());
+    options.config.part.box = Eigen::AlignedBox3d(bounds.head<3>(), bounds.tail<3>());
+    if (options.config.part.box.isEmpty()) {
+      throw std::invalid_argument("--box: each minimum must be at most the maximum");
+    }
+  }
   options.config.relabel = !options.no_relabel;
   MeshFile file = read_ply(options.mesh);
   if (!options.labels.empty()) {
