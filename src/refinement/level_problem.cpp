@@ -154,25 +154,18 @@ double LevelProblem::semantic_scale() const {
   return config_.semantic_weight * config_.pairs_per_view * kPixelInformation;
 }
 
-double LevelProblem::data_energy(const Shape& shape,
-                                 const std::vector<SemanticGate>& gates,
-                                 std::size_t pixels) const {
-  // The mean, not the sum: hiding pixels must not count as an improvement.
-  double energy =
-      config_.photometric ? shape.photometric.mean() * static_cast<double>(pixels) : 0.0;
-  if (config_.semantic == SemanticMode::kPairwise) {
-    const auto count = static_cast<double>(std::max<std::size_t>(1, shape.pairwise.pixels));
-    energy += config_.semantic_weight * shape.pairwise.sum / count * static_cast<double>(pixels);
-  } else if (config_.semantic != SemanticMode::kOff) {
-    energy +=
-        semantic_scale() * semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
+double LevelProblem::label_energy(const Shape& shape,
+                                  const std::vector<SemanticGate>& gates,
+                                  std::size_t pixels) const {
+  if (config_.semantic == SemanticMode::kOff) {
+    return 0.0;
   }
-  return energy;
-}
-
-double LevelProblem::mean_energy(const Shape& shape) const {
-  const std::size_t pixels = std::max<std::size_t>(1, shape.photometric.pixels);
-  return data_energy(shape, shape.gates, pixels) / static_cast<double>(pixels);
+  if (config_.semantic == SemanticMode::kPairwise) {
+    // The mean, not the sum: hiding pixels must not count as an improvement.
+    const auto count = static_cast<double>(std::max<std::size_t>(1, shape.pairwise.pixels));
+    return config_.semantic_weight * shape.pairwise.sum / count * static_cast<double>(pixels);
+  }
+  return semantic_scale() * semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
 }
 
 VectorField LevelProblem::find_step(const Shape& shape, const SmoothingTerm& smoothing) const {
@@ -204,8 +197,8 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
   smooth.thin_plate = config_.thin_plate;
   const SmoothingTerm smoothing(shape.mesh, *umbrella_, weights_, smooth);
   const std::size_t pixels = shape.photometric.pixels;
-  const double before =
-      data_energy(shape, shape.gates, pixels) + smoothing.energy(shape.mesh.vertices);
+  const double others = label_energy(shape, shape.gates, pixels) +  //
+                        smoothing.energy(shape.mesh.vertices);
   VectorField step = find_step(shape, smoothing);
   for (int k = 0; k <= kHalvings; ++k) {
     prevent_flips(shape.mesh, &step);
@@ -214,9 +207,12 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
       moved.vertices[v] += step[v];
     }
     Shape trial = evaluate(std::move(moved), true);
-    const double after =
-        data_energy(trial, shape.gates, pixels) + smoothing.energy(trial.mesh.vertices);
-    if (after < before) {
+    double change =
+        label_energy(trial, shape.gates, pixels) + smoothing.energy(trial.mesh.vertices) - others;
+    if (config_.photometric) {
+      change += mean_change(shape.photometric, trial.photometric) * static_cast<double>(pixels);
+    }
+    if (change < 0.0) {
       return trial;
     }
     for (Eigen::Vector3d& s : step) {

@@ -41,7 +41,7 @@ RefinementResult RefinementRun::run() {
     relabel(&current_);
   }
   finest_.choose_pairs(current_, finest_.render(current_));
-  const Measured before = measure(current_);
+  const Measured before = measure(current_, 0);
   result_.before = before.terms;
   TriangleMesh best = current_;
   for (int level = config_.levels - 1; level >= 0 && config_.iterations > 0; --level) {
@@ -53,21 +53,30 @@ RefinementResult RefinementRun::run() {
   if (config_.relabel && has_segmentation()) {
     relabel(&current_);
   }
-  Measured after = measure(current_);
-  if (after.energy <= before.energy) {
+  const Measured after = measure(current_, before.photometric.pixels);
+  const bool is_better = change(before, after) <= 0.0;
+  if (is_better) {
     best = std::move(current_);
-  } else {
-    after = before;
   }
-  result_.after = after.terms;
+  result_.after = is_better ? after.terms : before.terms;
   result_.facets_after = best.triangles.size();
   result_.mesh = std::move(best);
   return std::move(result_);
 }
 
-RefinementRun::Measured RefinementRun::measure(const TriangleMesh& mesh) const {
-  const Shape shape = finest_.evaluate(mesh, false);
-  return {shape.terms(), finest_.mean_energy(shape)};
+RefinementRun::Measured RefinementRun::measure(const TriangleMesh& mesh, std::size_t pixels) const {
+  Shape shape = finest_.evaluate(mesh, false);
+  const std::size_t count =
+      std::max<std::size_t>(1, pixels > 0 ? pixels : shape.photometric.pixels);
+  const double labels =
+      finest_.label_energy(shape, shape.gates, count) / static_cast<double>(count);
+  return {shape.terms(), std::move(shape.photometric), labels};
+}
+
+double RefinementRun::change(const Measured& from, const Measured& to) const {
+  const double photometric =
+      config_.photometric ? mean_change(from.photometric, to.photometric) : 0.0;
+  return photometric + to.labels - from.labels;
 }
 
 bool RefinementRun::has_segmentation() const {

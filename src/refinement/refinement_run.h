@@ -30,9 +30,13 @@ class RefinementRun {
   /// What is compared to tell the better of two shapes, on the finest level's images.
   struct Measured {
     EnergyTerms terms;
-    double energy = 0.0;
+    PhotometricEnergy photometric;
+    double labels = 0.0;  ///< energy of the segmentations per photometric pixel of the start
   };
-  Measured measure(const TriangleMesh& mesh) const;
+  /// `pixels`: photometric pixels of the start; 0: this is the start.
+  Measured measure(const TriangleMesh& mesh, std::size_t pixels) const;
+  /// By how much the energy per pixel rises.
+  double change(const Measured& from, const Measured& to) const;
 
   /// Refine `current_` at one level; false if the run was cancelled.
   bool refine_level(int level);

@@ -106,6 +106,7 @@ ZnccResult zncc_energy(const cv::Mat& image,
   const cv::Mat inside = box(valid != 0, window_px, false);
   TermImages terms(with_derivative ? image.size() : cv::Size());
   ZnccResult result;
+  result.map = cv::Mat(image.size(), CV_16UC1, cv::Scalar(kNotCounted));
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
       if (inside.at<float>(y, x) < 255.0 * n - 0.5) {
@@ -119,6 +120,8 @@ ZnccResult zncc_energy(const cv::Mat& image,
                                               n,
                                               noise4);
       result.energy += window.energy;
+      result.map.at<std::uint16_t>(y, x) =
+          static_cast<std::uint16_t>(std::lround(kEnergyUnits * window.energy));
       ++result.pixels;
       if (with_derivative) {
         terms.set(y, x, window, mean_i, mean_j);

@@ -57,15 +57,13 @@ class LevelProblem {
   /// found, that is, the shape is at a minimum.
   std::optional<Shape> improve(const Shape& shape) const;
 
-  /// Photometric and semantic energy of a shape per photometric pixel.
-  double mean_energy(const Shape& shape) const;
+  /// What the segmentations add to the energy of a shape, in the units of a photometric sum over
+  /// `pixels` pixels, the single-view term under the given gates.
+  double label_energy(const Shape& shape,
+                      const std::vector<SemanticGate>& gates,
+                      std::size_t pixels) const;
 
  private:
-  /// Data energies of a shape in the units of the photometric sum over `pixels` pixels, the
-  /// semantic one under the given gates.
-  double data_energy(const Shape& shape,
-                     const std::vector<SemanticGate>& gates,
-                     std::size_t pixels) const;
   VectorField find_step(const Shape& shape, const SmoothingTerm& smoothing) const;
   double semantic_scale() const;
   VertexField semantic_field(const Shape& shape) const;

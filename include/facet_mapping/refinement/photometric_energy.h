@@ -43,12 +43,18 @@ WarpedImage warp_image(const TriangleMesh& mesh,
                        const SurfaceView& partner_surface);
 
 struct PhotometricEnergy {
-  double sum = 0.0;        ///< of r (1 - zncc) over the counted pixels of all pairs
-  std::size_t pixels = 0;  ///< counted pixels of all pairs
-  VertexField field;       ///< of `sum`; empty unless asked for
+  double sum = 0.0;                        ///< of r (1 - zncc) over the counted pixels of all pairs
+  std::size_t pixels = 0;                  ///< counted pixels of all pairs
+  VertexField field;                       ///< of `sum`; empty unless asked for
+  std::vector<std::vector<cv::Mat>> maps;  ///< ZnccResult::map of each view i and partner of i
 
   double mean() const { return pixels > 0 ? sum / static_cast<double>(pixels) : 0.0; }
 };
+
+/// By how much the mean energy rises from one shape to another, over the pixels that count in both:
+/// what only one of them hides or shows is neither a gain nor a loss. 0 without such pixels.
+/// Throws std::invalid_argument unless both are of the same views and partners.
+double mean_change(const PhotometricEnergy& from, const PhotometricEnergy& to);
 
 /// E = sum over ordered pairs (i, j in partners[i]) and pixels of r (1 - zncc), and
 ///   dE/dX_k = sum_u dE/dJ'(u) [grad I_j(P_j(x)) . DP_j(x) d] phi_k(x) / (n . d) n

@@ -73,14 +73,14 @@ struct RefinementResult {
 };
 
 /// Moves the vertices of `mesh` so that images and segmentations agree with it. A mesh without
-/// labels is labelled first if there are segmentations (all of it, `config.part` or not). Pixels that a segmentation calls sky (by
-/// the flag in `labels`) tell photometry nothing; facets of planar classes are smoothed more. What
-/// no view sees stays where it is. The result's energies are never above the start's; if no better
-/// shape is found, the start is returned. With zero iterations nothing but labels changes.
-/// Of a part, the energies are those of the pixels that show it, and views that do not see it are
-/// left out.
-/// Throws std::invalid_argument if fewer than two views are given or see the part, a view has no
-/// image of the camera's size, the mesh is invalid or the configuration is out of range.
+/// labels is labelled first if there are segmentations (all of it, `config.part` or not). Pixels
+/// that a segmentation calls sky (by the flag in `labels`) tell photometry nothing; facets of
+/// planar classes are smoothed more. What no view sees stays where it is. The result's energies are
+/// never above the start's; if no better shape is found, the start is returned. With zero
+/// iterations nothing but labels changes. Of a part, the energies are those of the pixels that show
+/// it, and views that do not see it are left out. Throws std::invalid_argument if fewer than two
+/// views are given or see the part, a view has no image of the camera's size, the mesh is invalid
+/// or the configuration is out of range.
 RefinementResult refine(const TriangleMesh& mesh,
                         const std::vector<LabeledView>& views,
                         const LabelSet& labels,

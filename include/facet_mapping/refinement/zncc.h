@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include <opencv2/core.hpp>
 
@@ -24,9 +25,14 @@ struct ZnccConfig {
   double noise_gray = 2.0;
 };
 
+constexpr double kEnergyUnits = 30000.0;  ///< energies are 0 .. 2
+constexpr std::uint16_t kNotCounted = 0xFFFF;
+
 struct ZnccResult {
   double energy = 0.0;     ///< sum of r * (1 - zncc) over the counted pixels
   std::size_t pixels = 0;  ///< pixels whose whole window is valid
+  /// CV_16UC1: each pixel's energy in units of 1 / kEnergyUnits, or kNotCounted.
+  cv::Mat map;
   /// CV_32FC1: d energy / d warped(w), reliability included.
   cv::Mat derivative;
   /// CV_32FC1: b(w) such that 1/2 sum b(w) dw^2 bounds the second-order change of the energy at
