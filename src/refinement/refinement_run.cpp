@@ -3,6 +3,7 @@
 #include "refinement_run.h"
 
 #include "facet_mapping/refinement/image_pyramid.h"
+#include "facet_mapping/refinement/mesh_quality.h"
 #include "facet_mapping/refinement/subdivision.h"
 
 namespace facet_mapping {
@@ -96,6 +97,9 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
   split_facets(*problem);
+  if (config_.keep_quality) {
+    current_ = improve_quality(current_);
+  }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
   bool go_on = true;

@@ -30,6 +30,7 @@ struct Options {
   bool right = false;
   bool no_photometric = false;
   bool no_relabel = false;
+  bool no_keep_quality = false;
   RefinementConfig config;
 };
 
@@ -60,6 +61,9 @@ void add_config_options(CLI::App* app, Options* options) {
   app->add_option("--subdivide-px", config.subdivide_px, "largest facet, pixels")
       ->capture_default_str();
   app->add_flag("--no-relabel", options->no_relabel, "keep the facets' labels");
+  app->add_flag("--no-keep-quality",
+                options->no_keep_quality,
+                "do not collapse and flip badly shaped facets");
 }
 
 void add_options(CLI::App* app, Options* options) {
@@ -135,6 +139,7 @@ void print_result(const RefinementResult& result, double seconds) {
 void run(Options options) {
   options.config.photometric = !options.no_photometric;
   options.config.relabel = !options.no_relabel;
+  options.config.keep_quality = !options.no_keep_quality;
   MeshFile file = read_ply(options.mesh);
   if (!options.labels.empty()) {
     file.labels = LabelSet::load(options.labels);

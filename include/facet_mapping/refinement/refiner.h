@@ -41,6 +41,7 @@ struct RefinementConfig {
   double max_step_edge_fraction = 0.25;  ///< longest step of a vertex, in mean edge lengths
   double subdivide_px = 24.0;  ///< facets covering more pixels in their best view are split
   bool relabel = true;         ///< run the labelling after each level
+  bool keep_quality = true;    ///< collapse and flip badly shaped facets before each level
   LabelingConfig labeling;
 };
 
