@@ -59,9 +59,8 @@ Converted convert(const TriangleMesh& mesh) {
 }
 
 bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(a.begin(), a.end(), [&b](std::uint32_t v) {
-    return v == b[0] || v == b[1] || v == b[2];
-  });
+  return std::any_of(
+      a.begin(), a.end(), [&b](std::uint32_t v) { return v == b[0] || v == b[1] || v == b[2]; });
 }
 
 }  // namespace

@@ -134,15 +134,14 @@ class EdgeCollapser {
     for (const std::uint32_t f : star) {
       const std::uint32_t next = editor_.next_around(f, from);
       const std::optional<EdgeSides> spoke = editor_.sides(from, next);
-      if (next == collapse.to || !spoke ||
-          state_.same_region(spoke->facets[0], spoke->facets[1])) {
+      if (next == collapse.to || !spoke || state_.same_region(spoke->facets[0], spoke->facets[1])) {
         continue;
       }
       if (move) {
         return {};
       }
-      move = distance_to_segment(
-          editor_.point(from), editor_.point(collapse.to), editor_.point(next));
+      move =
+          distance_to_segment(editor_.point(from), editor_.point(collapse.to), editor_.point(next));
     }
     return move;
   }

@@ -12,8 +12,8 @@
 namespace facet_mapping {
 
 struct FacetShape {
-  Eigen::Vector3d normal;   ///< zero for a facet without area
-  double sin_angle = 0.0;   ///< sine of its smallest angle, 0..0.87
+  Eigen::Vector3d normal;  ///< zero for a facet without area
+  double sin_angle = 0.0;  ///< sine of its smallest angle, 0..0.87
 
   FacetShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const Eigen::Vector3d cross = (b - a).cross(c - a);

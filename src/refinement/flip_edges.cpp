@@ -109,8 +109,8 @@ class EdgeFlipper {
     const bool use_second = before[0].sin_angle < before[1].sin_angle;
     const FacetShape& better = before[use_second ? 1 : 0];
     const FacetShape& worse = before[use_second ? 0 : 1];
-    const bool coplanar = worse.sin_angle < kSliverSin ||
-                          better.normal.dot(worse.normal) >= options_.flat_cos;
+    const bool coplanar =
+        worse.sin_angle < kSliverSin || better.normal.dot(worse.normal) >= options_.flat_cos;
     return coplanar && better.normal.dot(after[0].normal) >= options_.flat_cos &&
            better.normal.dot(after[1].normal) >= options_.flat_cos;
   }
@@ -118,8 +118,7 @@ class EdgeFlipper {
   /// Of the old and the new edge: where they pass each other the surface moves most.
   double distance_of_diagonals(const Flip& flip) const {
     const Eigen::Vector3d old_edge = editor_.point(flip.to) - editor_.point(flip.from);
-    const Eigen::Vector3d new_edge =
-        editor_.point(flip.edge.right) - editor_.point(flip.edge.left);
+    const Eigen::Vector3d new_edge = editor_.point(flip.edge.right) - editor_.point(flip.edge.left);
     const Eigen::Vector3d across = editor_.point(flip.edge.left) - editor_.point(flip.from);
     return std::abs(old_edge.cross(new_edge).normalized().dot(across));
   }

@@ -34,9 +34,8 @@ std::vector<double> local_lengths(const TriangleMesh& mesh) {
       mean_over_edges(table, count, [&mesh](std::uint32_t a, std::uint32_t b) {
         return (mesh.vertices[a] - mesh.vertices[b]).norm();
       });
-  return mean_over_edges(table, count, [&own](std::uint32_t a, std::uint32_t b) {
-    return 0.5 * (own[a] + own[b]);
-  });
+  return mean_over_edges(
+      table, count, [&own](std::uint32_t a, std::uint32_t b) { return 0.5 * (own[a] + own[b]); });
 }
 
 }  // namespace

@@ -11,13 +11,13 @@ namespace facet_mapping {
 
 /// Local lengths: the mean length of the edges around a vertex and around its neighbours.
 struct QualityOptions {
-  double short_edge = 0.2;   ///< edges shorter than this collapse, in local lengths
-  double needle_deg = 8.0;   ///< so do the shortest edges of facets with a smaller angle
-  double max_drift = 0.05;   ///< the surface moves by at most this, in local lengths
-  double turn_cos = 0.9;     ///< a collapse turns no facet by more
-  double flat_cos = 0.97;    ///< edges between facets that differ by more are not flipped
-  double flip_deg = 25.0;    ///< nor those of facets whose angles are all larger
-  double flip_gain = 1.1;    ///< a flip raises the sine of the smaller angle by this factor
+  double short_edge = 0.2;  ///< edges shorter than this collapse, in local lengths
+  double needle_deg = 8.0;  ///< so do the shortest edges of facets with a smaller angle
+  double max_drift = 0.05;  ///< the surface moves by at most this, in local lengths
+  double turn_cos = 0.9;    ///< a collapse turns no facet by more
+  double flat_cos = 0.97;   ///< edges between facets that differ by more are not flipped
+  double flip_deg = 25.0;   ///< nor those of facets whose angles are all larger
+  double flip_gain = 1.1;   ///< a flip raises the sine of the smaller angle by this factor
 };
 
 struct QualityReport {
