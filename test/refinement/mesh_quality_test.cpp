@@ -118,8 +118,8 @@ TEST_P(MeshQuality, EndsAndGivesTheSameAgain) {
 INSTANTIATE_TEST_SUITE_P(Shapes,
                          MeshQuality,
                          testing::Range<std::size_t>(0, 16),
-                         [](const testing::TestParamInfo<std::size_t>& info) {
-                           std::string name = cases()[info.param].name;
+                         [](const testing::TestParamInfo<std::size_t>& shape) {
+                           std::string name = cases()[shape.param].name;
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
