@@ -3,9 +3,14 @@
 #include "facet_mapping/geometry/self_intersections.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 #include <vector>
 
+#ifdef __clang_analyzer__
+#define CGAL_DO_NOT_USE_MPZF  // the analyser takes how it keeps its digits for an error
+#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>

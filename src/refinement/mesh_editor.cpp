@@ -3,6 +3,7 @@
 #include "mesh_editor.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace facet_mapping {
 namespace {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/refinement/mesh_quality.h"
 
+#include <utility>
+
 #include "edge_table.h"
 #include "quality_steps.h"
 
