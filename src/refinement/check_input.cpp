@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -65,8 +66,21 @@ void check_views(const std::vector<LabeledView>& views) {
   }
 }
 
-void check_mesh(const TriangleMesh& mesh) {
+void check_mesh(const TriangleMesh& mesh, const MeshPart& part) {
   require(!mesh.empty(), "the mesh has no facets");
+  require(part.classes.empty() || !mesh.labels.empty(),
+          "only some classes shall change, but the mesh has no classes; label it first");
+  if (!part.is_everything()) {
+    const std::vector<std::uint8_t> inside = facets_of_part(mesh, part);
+    require(std::count(inside.begin(), inside.end(), 1) > 0,
+            "no facet lies in the region or has one of the classes asked for");
+  }
+}
+
+void check_part_views(std::size_t seeing, std::size_t views) {
+  require(seeing >= 2,
+          std::to_string(seeing) + " of the " + std::to_string(views) +
+              " views see(s) the part that shall change; at least two are needed");
 }
 
 }  // namespace facet_mapping

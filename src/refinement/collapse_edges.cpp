@@ -101,7 +101,8 @@ class EdgeCollapser {
 
   std::optional<Collapse> check(std::uint32_t from, std::uint32_t to) const {
     const std::optional<EdgeSides> edge = editor_.sides(from, to);
-    if (!edge || !is_wanted(from, to, *edge) || !editor_.can_collapse(from, to, *edge)) {
+    if (!edge || !is_wanted(from, to, *edge) || !may_move(from) ||
+        !editor_.can_collapse(from, to, *edge)) {
       return {};
     }
     Collapse collapse{from, to, *edge};
@@ -110,6 +111,12 @@ class EdgeCollapser {
       return {};
     }
     return collapse;
+  }
+
+  bool may_move(std::uint32_t vertex) const {
+    const std::vector<std::uint32_t>& star = editor_.facets_of(vertex);
+    return std::all_of(
+        star.begin(), star.end(), [this](std::uint32_t f) { return state_.may_change(f); });
   }
 
   /// Earlier collapses may have made a needle vanish.

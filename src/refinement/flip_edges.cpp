@@ -79,8 +79,8 @@ class EdgeFlipper {
 
   std::optional<Flip> check(std::uint32_t from, std::uint32_t to) const {
     const std::optional<EdgeSides> edge = editor_.sides(from, to);
-    if (!edge || !state_.same_region(edge->facets[0], edge->facets[1]) ||
-        !editor_.can_flip(*edge)) {
+    if (!edge || !state_.may_change(edge->facets[0]) || !state_.may_change(edge->facets[1]) ||
+        !state_.same_region(edge->facets[0], edge->facets[1]) || !editor_.can_flip(*edge)) {
       return {};
     }
     Flip flip{from, to, *edge};

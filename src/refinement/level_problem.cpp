@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+
 #include "facet_mapping/refinement/smoothing_weights.h"
 #include "facet_mapping/refinement/step.h"
 #include "facet_mapping/refinement/view_pairs.h"
@@ -11,6 +13,10 @@
 namespace facet_mapping {
 
 namespace {
+
+/// Lumped curvatures bound the true ones from above: with these steps come out short. Too long a
+/// step is halved.
+constexpr double kCurvatureShare = 0.6;
 
 cv::Mat find_sky(const cv::Mat& segmentation, const LabelSet& labels) {
   cv::Mat sky;
@@ -21,6 +27,21 @@ cv::Mat find_sky(const cv::Mat& segmentation, const LabelSet& labels) {
     }
   }
   return sky;
+}
+
+/// Only pixels that show one of the facets are of use; partners are sampled everywhere.
+void keep_part(const std::vector<std::uint8_t>& facets, std::vector<SurfaceView>* surfaces) {
+  tbb::parallel_for(std::size_t{0}, surfaces->size(), [&](std::size_t i) {
+    SurfaceView& surface = (*surfaces)[i];
+    for (int y = 0; y < surface.usable.rows; ++y) {
+      for (int x = 0; x < surface.usable.cols; ++x) {
+        const int facet = surface.image.facets.at<int>(y, x);
+        if (facet < 0 || facets[facet] == 0) {
+          surface.usable.at<std::uint8_t>(y, x) = 0;
+        }
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -44,6 +65,9 @@ std::vector<SurfaceView> LevelProblem::render(const TriangleMesh& mesh) const {
       surfaces[i].usable.setTo(cv::Scalar(0), sky_[i]);
       surfaces[i].sampled.setTo(cv::Scalar(0), sky_[i]);
     }
+  }
+  if (!config_.part.is_everything()) {
+    keep_part(facets_of_part(mesh, config_.part), &surfaces);
   }
   return surfaces;
 }
@@ -102,6 +126,13 @@ void LevelProblem::start(const Shape& shape) {
   umbrella_.emplace(shape.mesh);
   weights_ = smoothing_weights(shape.mesh, poses_, shape.surfaces, config_.pairs_per_view);
   smooth_planes(shape.mesh);
+  if (!config_.part.is_everything()) {
+    const std::vector<std::uint8_t> inside =
+        vertices_inside(shape.mesh, facets_of_part(shape.mesh, config_.part));
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      weights_[k] *= inside[k];
+    }
+  }
 }
 
 void LevelProblem::smooth_planes(const TriangleMesh& mesh) {
@@ -118,8 +149,9 @@ void LevelProblem::smooth_planes(const TriangleMesh& mesh) {
 }
 
 double LevelProblem::semantic_scale() const {
-  // A pixel takes part in several pairs but in one segmentation.
-  return config_.semantic_weight * config_.pairs_per_view;
+  // A border that is a pixel off shall weigh as much as a well-textured pixel whose surface is: in
+  // all its pairs, since it takes part in one segmentation only.
+  return config_.semantic_weight * config_.pairs_per_view * kPixelInformation;
 }
 
 double LevelProblem::data_energy(const Shape& shape,
@@ -152,6 +184,9 @@ VectorField LevelProblem::find_step(const Shape& shape, const SmoothingTerm& smo
     data.add(shape.pairwise.field, config_.semantic_weight);
   } else if (config_.semantic != SemanticMode::kOff) {
     data.add(shape.semantic.field, semantic_scale());
+  }
+  for (double& curvature : data.curvature) {
+    curvature *= kCurvatureShare;
   }
   std::vector<std::uint8_t> movable(weights_.size());
   for (std::size_t k = 0; k < movable.size(); ++k) {

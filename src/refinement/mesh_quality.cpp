@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/refinement/mesh_quality.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "edge_table.h"
@@ -42,8 +43,11 @@ std::vector<double> local_lengths(const TriangleMesh& mesh) {
 
 }  // namespace
 
-QualityState::QualityState(const TriangleMesh& mesh, const QualityOptions& quality)
+QualityState::QualityState(const TriangleMesh& mesh,
+                           const QualityOptions& quality,
+                           const std::vector<std::uint8_t>& may_change)
     : options(quality),
+      changeable(may_change),
       editor(mesh),
       local_length(local_lengths(mesh)),
       drift(mesh.triangles.size(), 0.0) {}
@@ -56,9 +60,13 @@ bool QualityState::same_region(std::uint32_t f, std::uint32_t g) const {
 
 TriangleMesh improve_quality(const TriangleMesh& mesh,
                              const QualityOptions& options,
-                             QualityReport* report) {
+                             QualityReport* report,
+                             const std::vector<std::uint8_t>& may_change) {
   validate(mesh);
-  QualityState state(mesh, options);
+  if (!may_change.empty() && may_change.size() != mesh.triangles.size()) {
+    throw std::invalid_argument("improve_quality: give may_change per facet or not at all");
+  }
+  QualityState state(mesh, options, may_change);
   QualityReport total;
   constexpr int kMaxRounds = 5;  // what is left after two is little
   for (int round = 0; round < kMaxRounds; ++round) {

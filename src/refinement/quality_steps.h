@@ -17,7 +17,13 @@ namespace facet_mapping {
 using EdgeKey = std::pair<std::uint32_t, std::uint32_t>;  ///< ascending vertices
 
 struct QualityState {
-  QualityState(const TriangleMesh& mesh, const QualityOptions& options);
+  QualityState(const TriangleMesh& mesh,
+               const QualityOptions& options,
+               const std::vector<std::uint8_t>& may_change);
+
+  bool may_change(std::uint32_t facet) const {
+    return changeable.empty() || changeable[facet] != 0;
+  }
 
   FacetShape shape(const Triangle& t) const {
     return {editor.point(t[0]), editor.point(t[1]), editor.point(t[2])};
@@ -28,6 +34,7 @@ struct QualityState {
   bool same_region(std::uint32_t f, std::uint32_t g) const;
 
   const QualityOptions& options;
+  const std::vector<std::uint8_t>& changeable;
   MeshEditor editor;
   std::vector<double> local_length;  ///< per vertex, of the start
   std::vector<double> drift;         ///< per facet: how far it may be from the start's surface

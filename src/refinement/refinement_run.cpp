@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refinement_run.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "facet_mapping/refinement/image_pyramid.h"
 #include "facet_mapping/refinement/mesh_quality.h"
 #include "facet_mapping/refinement/subdivision.h"
@@ -88,8 +91,13 @@ bool RefinementRun::refine_level(int level) {
 
 void RefinementRun::split_facets(const LevelProblem& problem) {
   const std::size_t facets = current_.triangles.size();
-  current_ = subdivide(
-      current_, best_view_pixels(current_, problem.render(current_)), config_.subdivide_px);
+  std::vector<double> pixels = best_view_pixels(current_, problem.render(current_));
+  if (!config_.part.is_everything()) {
+    const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
+    std::transform(
+        pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
+  }
+  current_ = subdivide(current_, pixels, config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
   }
@@ -98,7 +106,9 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
   split_facets(*problem);
   if (config_.keep_quality) {
-    current_ = improve_quality(current_);
+    const bool all = config_.part.is_everything();
+    const auto part = all ? std::vector<std::uint8_t>() : facets_of_part(current_, config_.part);
+    current_ = improve_quality(current_, {}, nullptr, part);
   }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);

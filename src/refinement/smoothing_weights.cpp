@@ -9,10 +9,6 @@
 namespace facet_mapping {
 namespace {
 
-/// Typical squared gradient over variance of a well-textured window, per square pixel.
-constexpr double kTextureInformation = 0.3;
-/// Pixels that a point moves in the partner per pixel footprint along the normal: sin(10 degrees).
-constexpr double kParallaxShare = 0.17;
 /// Relative depth slack for facets smaller than a pixel.
 constexpr double kDepthTolerance = 0.01;
 
@@ -61,7 +57,7 @@ std::vector<double> smoothing_weights(const TriangleMesh& mesh,
                                       const std::vector<View>& views,
                                       const std::vector<SurfaceView>& surfaces,
                                       int partners_per_view) {
-  const double scale = kTextureInformation * kParallaxShare * kParallaxShare * partners_per_view;
+  const double scale = kPixelInformation * partners_per_view;
   std::vector<double> weights(mesh.vertices.size(), 0.0);
   for (std::size_t i = 0; i < views.size(); ++i) {
     add_pixels(mesh, views[i], surfaces[i].image, scale, &weights);

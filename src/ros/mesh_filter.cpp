@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/mesh_filter.h"
 
-#include <algorithm>
-#include <set>
 #include <stdexcept>
+
+#include <tf2_eigen/tf2_eigen.h>
 
 namespace facet_mapping {
 namespace {
 
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
   return {point.x, point.y, point.z};
-}
-
-Eigen::Vector3d centroid(const TriangleMesh& mesh, const Triangle& t) {
-  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
 }
 
 }  // namespace
@@ -43,20 +39,40 @@ Eigen::AlignedBox3d box_in_map(const BoxRegion& region, const Eigen::Isometry3d&
   return around;
 }
 
+Eigen::Isometry3d lookup_region_from_map(const BoxRegion& region,
+                                         const std::string& map_frame,
+                                         const tf2_ros::Buffer& buffer) {
+  if (is_everywhere(region) || region.frame_id.empty() || region.frame_id == map_frame) {
+    return Eigen::Isometry3d::Identity();
+  }
+  try {
+    return tf2::transformToEigen(buffer.lookupTransform(region.frame_id, map_frame, ros::Time(0)));
+  } catch (const tf2::TransformException& e) {
+    throw std::invalid_argument("region: tf knows no transform from '" + map_frame + "' to '" +
+                                region.frame_id + "': " + e.what());
+  }
+}
+
+MeshPart part_of_request(const BoxRegion& region,
+                         const Eigen::Isometry3d& region_from_map,
+                         const std::vector<std::uint16_t>& classes) {
+  validate(region);
+  MeshPart part;
+  if (!is_everywhere(region)) {
+    part.box = Eigen::AlignedBox3d(to_eigen(region.min), to_eigen(region.max));
+    part.box_from_mesh = region_from_map;
+  }
+  part.classes.assign(classes.begin(), classes.end());
+  return part;
+}
+
 TriangleMesh filter_mesh(const TriangleMesh& mesh,
                          const BoxRegion& region,
                          const Eigen::Isometry3d& region_from_map,
                          const std::vector<Label>& classes) {
-  const bool everywhere = is_everywhere(region);
-  const Eigen::AlignedBox3d box(to_eigen(region.min), to_eigen(region.max));
-  const std::set<Label> wanted(classes.begin(), classes.end());
-  std::vector<bool> keep(mesh.triangles.size());
-  for (std::size_t f = 0; f < keep.size(); ++f) {
-    const Label label = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
-    keep[f] = (wanted.empty() || wanted.count(label) > 0) &&
-              (everywhere || box.contains(region_from_map * centroid(mesh, mesh.triangles[f])));
-  }
-  return select_facets(mesh, keep);
+  const std::vector<std::uint8_t> facets =
+      facets_of_part(mesh, part_of_request(region, region_from_map, classes));
+  return select_facets(mesh, std::vector<bool>(facets.begin(), facets.end()));
 }
 
 }  // namespace facet_mapping

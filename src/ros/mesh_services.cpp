@@ -5,8 +5,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include <tf2_eigen/tf2_eigen.h>
-
 #include "facet_mapping/io/ply.h"
 #include "facet_mapping/ros/file_paths.h"
 #include "facet_mapping/ros/mesh_filter.h"
@@ -69,20 +67,6 @@ MeshStatePtr MeshServices::mesh_within(const BoxRegion& region,
   }
 }
 
-Eigen::Isometry3d MeshServices::region_from_map(const BoxRegion& region) const {
-  const std::string& map_frame = publisher_->frame_id();
-  if (is_everywhere(region) || region.frame_id.empty() || region.frame_id == map_frame) {
-    return Eigen::Isometry3d::Identity();
-  }
-  try {
-    return tf2::transformToEigen(
-        buffer_->lookupTransform(region.frame_id, map_frame, ros::Time(0)));
-  } catch (const tf2::TransformException& e) {
-    throw std::invalid_argument("region: tf knows no transform from '" + map_frame + "' to '" +
-                                region.frame_id + "': " + e.what());
-  }
-}
-
 bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& response) {
   response.status = answer([&] {
     validate(request.region);
@@ -91,7 +75,8 @@ bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& respon
       response.mesh = publisher_->full_message();
       return facets_text(count_facets(response.mesh));
     }
-    const Eigen::Isometry3d region_from_map = this->region_from_map(request.region);
+    const Eigen::Isometry3d region_from_map =
+        lookup_region_from_map(request.region, publisher_->frame_id(), *buffer_);
     const MeshStatePtr state = mesh_within(request.region, region_from_map);
     const TriangleMesh part =
         filter_mesh(state->mesh, request.region, region_from_map, to_labels(request.classes));

@@ -14,18 +14,6 @@ namespace {
 constexpr int kMaxLevels = 8;
 constexpr int kMaxIterations = 1000;
 
-void check_support(const Refine::Request& request) {
-  if (!is_everywhere(request.region)) {
-    throw std::invalid_argument(
-        "region: refining only a part of the mesh is not supported yet; leave region all zero (and "
-        "cut the part out with ~get_mesh afterwards)");
-  }
-  if (!request.classes.empty()) {
-    throw std::invalid_argument(
-        "classes: refining only some classes is not supported yet; leave classes empty");
-  }
-}
-
 void check_budget(const char* name, double value) {
   if (!std::isfinite(value) || value < 0.0) {
     throw std::invalid_argument(std::string(name) + " must be 0 (no limit) or positive");
@@ -83,12 +71,13 @@ SemanticMode semantic_mode(std::uint8_t asked, SemanticMode fallback) {
 }  // namespace
 
 RefinementConfig refinement_config(const Refine::Request& request,
-                                   const RefinementConfig& defaults) {
+                                   const RefinementConfig& defaults,
+                                   const Eigen::Isometry3d& region_from_map) {
   constexpr double kLargestSemanticWeight = 1e6;
-  check_support(request);
   check_budget("time_budget", request.time_budget);
   check_budget("memory_budget", request.memory_budget);
   RefinementConfig config = defaults;
+  config.part = part_of_request(request.region, region_from_map, request.classes);
   config.iterations =
       count_or_default("iterations", request.iterations, defaults.iterations, kMaxIterations);
   config.levels = count_or_default("levels", request.levels, defaults.levels, kMaxLevels);

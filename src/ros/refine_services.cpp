@@ -11,6 +11,7 @@
 #include "facet_mapping/render/facet_renderer.h"
 #include "facet_mapping/render/observed_mesh.h"
 #include "facet_mapping/ros/mesh_conversions.h"
+#include "facet_mapping/ros/mesh_filter.h"
 #include "facet_mapping/ros/refine_request.h"
 #include "facet_mapping/ros/service_status.h"
 
@@ -147,7 +148,10 @@ std::vector<LabeledView> RefineServices::require_views(std::size_t least,
 
 RefineServices::Task RefineServices::prepare(const Refine::Request& request) const {
   Task task;
-  task.config = refinement_config(request, defaults_);
+  task.config = refinement_config(
+      request,
+      defaults_,
+      lookup_region_from_map(request.region, sources_.refined->frame_id(), *sources_.tf));
   task.time_budget_s = request.time_budget;
   task.dry_run = request.dry_run != 0;
   task.start = start_mesh(request);

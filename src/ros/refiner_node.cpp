@@ -50,6 +50,7 @@ RefinerNode::RefinerNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
                 {[this] { return map_mesh_.mesh(); },
                  map_mesh_.topic(),
                  nh.resolveName("image_rect"),
+                 &tf_buffer_,
                  &keyframes_,
                  &refined_,
                  &diagnostics_,

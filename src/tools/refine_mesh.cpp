@@ -31,6 +31,7 @@ struct Options {
   bool no_photometric = false;
   bool no_relabel = false;
   bool no_keep_quality = false;
+  std::vector<double> box;  ///< mesh frame, metres
   RefinementConfig config;
 };
 
@@ -64,6 +65,9 @@ void add_config_options(CLI::App* app, Options* options) {
   app->add_flag("--no-keep-quality",
                 options->no_keep_quality,
                 "do not collapse and flip badly shaped facets");
+  app->add_option("--box", options->box, "refine only this: MIN_X MIN_Y MIN_Z MAX_X MAX_Y MAX_Z")
+      ->expected(6);
+  app->add_option("--classes", config.part.classes, "refine only facets of these classes (ids)");
 }
 
 void add_options(CLI::App* app, Options* options) {
@@ -138,6 +142,13 @@ void print_result(const RefinementResult& result, double seconds) {
 
 void run(Options options) {
   options.config.photometric = !options.no_photometric;
+  if (!options.box.empty()) {
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> bounds(options.box.data());
+    options.config.part.box = Eigen::AlignedBox3d(bounds.head<3>(), bounds.tail<3>());
+    if (options.config.part.box.isEmpty()) {
+      throw std::invalid_argument("--box: each minimum must be at most the maximum");
+    }
+  }
   options.config.relabel = !options.no_relabel;
   options.config.keep_quality = !options.no_keep_quality;
   MeshFile file = read_ply(options.mesh);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Images in, refined labelled mesh file out: stereo_points, mapper and refiner together.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <future>
@@ -175,17 +177,57 @@ TEST_F(ChainTest, DryRunChangesNothing) {
   EXPECT_EQ(call<GetMesh>("refiner/get_mesh").status.code, Status::NOT_READY);
 }
 
-TEST_F(ChainTest, MemoryBudgetAndUnsupportedPartsAreRefused) {
+TEST_F(ChainTest, MemoryBudgetAndPartsThatAreNotThereAreRefused) {
   Refine::Request request;
   request.memory_budget = 0.001;
   EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::INVALID_ARGUMENT);
   request = {};
   request.classes = {kRoad};
+  request.region.min.x = request.region.max.x = 5000.0;
+  EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::INVALID_ARGUMENT);
+  request.region.frame_id = "nowhere";
   EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::INVALID_ARGUMENT);
   request = {};
   request.start = Refine::Request::START_REFINED;
   EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::NOT_READY);
   EXPECT_EQ(call<CancelRefine>("refiner/cancel_refine").status.code, Status::NOT_READY);
+}
+
+/// Corners of the facets of a class, in whole millimetres.
+std::set<std::array<long, 3>> corners_of(const TriangleMesh& mesh, Label label) {
+  std::set<std::array<long, 3>> corners;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (int k = 0; mesh.labels[f] == label && k < 3; ++k) {
+      const Eigen::Vector3d mm = 1e3 * mesh.vertices[mesh.triangles[f][k]];
+      corners.insert({std::lround(mm.x()), std::lround(mm.y()), std::lround(mm.z())});
+    }
+  }
+  return corners;
+}
+
+/// Share of the corners that are still there.
+double share_kept(const std::set<std::array<long, 3>>& before,
+                  const std::set<std::array<long, 3>>& after) {
+  std::size_t kept = 0;
+  for (const std::array<long, 3>& corner : before) {
+    kept += after.count(corner);
+  }
+  return static_cast<double>(kept) / static_cast<double>(before.size());
+}
+
+TEST_F(ChainTest, RefiningOneClassLeavesTheOthersAlone) {
+  const TriangleMesh before = map_mesh_->receiver().mesh();
+  Refine::Request request;
+  request.classes = {kBuilding};
+  request.iterations = 2;
+  request.levels = 1;
+  request.return_mesh = 1;
+  const auto response = call<Refine>("refiner/refine", request);
+  ASSERT_EQ(response.status.code, Status::OK) << response.status.message;
+  const TriangleMesh after = mesh_from_message(response.mesh);
+  ASSERT_GT(corners_of(before, kRoad).size(), 100U);
+  EXPECT_GT(share_kept(corners_of(before, kRoad), corners_of(after, kRoad)), 0.99);
+  EXPECT_LT(share_kept(corners_of(before, kBuilding), corners_of(after, kBuilding)), 0.8);
 }
 
 TEST_F(ChainTest, RefineLowersTheEnergyAndTheFileReadsBack) {

@@ -143,6 +143,31 @@ TEST(MeshQualityLimits, OpenBordersDoNotChange) {
   EXPECT_EQ(test::border_segments(after), test::border_segments(mesh));
 }
 
+TEST(MeshQualityLimits, FacetsThatMayNotChangeStay) {
+  const TriangleMesh mesh = test::ill_shaped(test::make_sphere(1.0, 3), 6);
+  std::vector<std::uint8_t> may_change;
+  for (const Triangle& t : mesh.triangles) {
+    may_change.push_back(mesh.vertices[t[0]].z() > 0.0 ? 1 : 0);
+  }
+  const auto corners = [](const TriangleMesh& of, std::size_t f) {
+    const Triangle& t = of.triangles[f];
+    return std::array<Eigen::Vector3d, 3>{of.vertices[t[0]], of.vertices[t[1]], of.vertices[t[2]]};
+  };
+  QualityReport report;
+  const TriangleMesh after = improve_quality(mesh, {}, &report, may_change);
+  EXPECT_GT(report.collapses, 0U);
+  EXPECT_GT(report.flips, 0U);
+  std::size_t g = 0;  // survivors keep their order
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    while (may_change[f] == 0 && g < after.triangles.size() &&
+           corners(after, g) != corners(mesh, f)) {
+      ++g;
+    }
+    ASSERT_LT(g, after.triangles.size()) << "facet " << f << " is gone";
+  }
+  EXPECT_THROW(improve_quality(mesh, {}, nullptr, {1, 0}), std::invalid_argument);
+}
+
 TEST(MeshQualityLimits, ATetrahedronStaysOne) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {0.001, 0, 0}, {0, 1, 0}, {0, 0, 1}};

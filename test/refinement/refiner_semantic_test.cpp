@@ -24,6 +24,7 @@ RefinementConfig semantic_config(SemanticMode mode) {
   config.photometric = false;
   config.relabel = false;
   config.semantic = mode;
+  config.semantic_weight = 10.0;  // there is nothing beside it but smoothing
   config.levels = 1;
   config.iterations = 12;
   config.subdivide_px = 1e9;

@@ -79,13 +79,21 @@ void expect_refused(const Change& change) {
   EXPECT_THROW(refinement_config(request, node_defaults()), std::invalid_argument);
 }
 
-TEST(RefineRequest, WhatIsNotSupportedIsRefused) {
-  expect_refused([](auto& request) { request.region.max.x = 5.0; });
-  expect_refused([](auto& request) { request.classes.push_back(3); });
+TEST(RefineRequest, APartCanBeAskedFor) {
+  Refine::Request request;
+  EXPECT_TRUE(refinement_config(request, node_defaults()).part.is_everything());
+  request.region.max.x = 5.0;
+  request.classes.push_back(3);
+  const Eigen::Isometry3d moved(Eigen::Translation3d(1.0, 2.0, 3.0));
+  const MeshPart part = refinement_config(request, node_defaults(), moved).part;
+  EXPECT_EQ(part.box.max(), Eigen::Vector3d(5.0, 0.0, 0.0));
+  EXPECT_TRUE(part.box_from_mesh.isApprox(moved));
+  EXPECT_EQ(part.classes, std::vector<Label>{3});
 }
 
 TEST(RefineRequest, WhatIsOutOfRangeIsRefused) {
   expect_refused([](auto& request) { request.iterations = -1; });
+  expect_refused([](auto& request) { request.region.max.x = -5.0; });
   expect_refused([](auto& request) { request.levels = 50; });
   expect_refused([](auto& request) { request.photometric = 3; });
   expect_refused([](auto& request) { request.semantic_mode = 6; });

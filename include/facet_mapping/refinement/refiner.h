@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/geometry/mesh_part.h"
 #include "facet_mapping/labeling/facet_labeling.h"
 #include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/labels/labeled_view.h"
@@ -31,18 +32,19 @@ struct RefinementConfig {
   bool photometric = true;                        ///< use the photometric flow
   SemanticMode semantic = SemanticMode::kNormal;  ///< how the semantic flow acts
   double semantic_weight = 1.0;     ///< weight of the semantic energy beside the photometric one
-  double smoothing = 0.2;           ///< weight of the umbrella operator, 0..1
-  double thin_plate = 0.2;          ///< weight of the second-order smoothing, 0..1
+  double smoothing = 0.05;          ///< weight of the umbrella operator, 0..1
+  double thin_plate = 0.05;         ///< weight of the second-order smoothing, 0..1
   double planar_smoothing = 3.0;    ///< factor of both on classes marked planar, at least 1
   int ncc_window_px = 5;            ///< side of the correlation window, odd
   int semantic_window_px = 7;       ///< side of the semantic window W, odd
   double min_incidence_cos = 0.15;  ///< pixels that see the surface at a flatter angle do not count
-  int pairs_per_view = 3;           ///< best partners kept for each view
+  int pairs_per_view = 2;           ///< best partners kept for each view
   double max_step_edge_fraction = 0.25;  ///< longest step of a vertex, in mean edge lengths
   double subdivide_px = 24.0;  ///< facets covering more pixels in their best view are split
   bool relabel = true;         ///< run the labelling after each level
   bool keep_quality = true;    ///< collapse and flip badly shaped facets before each level
   LabelingConfig labeling;
+  MeshPart part;  ///< what may change; facets outside keep their shape and class
 };
 
 /// One term's energy, for the report and the progress topic.
@@ -72,12 +74,14 @@ struct RefinementResult {
 };
 
 /// Moves the vertices of `mesh` so that images and segmentations agree with it. A mesh without
-/// labels is labelled first if there are segmentations. Pixels that a segmentation calls sky (by
+/// labels is labelled first if there are segmentations (all of it, `config.part` or not). Pixels that a segmentation calls sky (by
 /// the flag in `labels`) tell photometry nothing; facets of planar classes are smoothed more. What
 /// no view sees stays where it is. The result's energies are never above the start's; if no better
 /// shape is found, the start is returned. With zero iterations nothing but labels changes.
-/// Throws std::invalid_argument if fewer than two views are given, a view has no image of the
-/// camera's size, the mesh is invalid or the configuration is out of range.
+/// Of a part, the energies are those of the pixels that show it, and views that do not see it are
+/// left out.
+/// Throws std::invalid_argument if fewer than two views are given or see the part, a view has no
+/// image of the camera's size, the mesh is invalid or the configuration is out of range.
 RefinementResult refine(const TriangleMesh& mesh,
                         const std::vector<LabeledView>& views,
                         const LabelSet& labels,

@@ -28,7 +28,6 @@ class MeshServices {
   bool save_mesh(SaveMesh::Request& request, SaveMesh::Response& response);
   void require_mesh() const;
   MeshStatePtr mesh_within(const BoxRegion& region, const Eigen::Isometry3d& region_from_map) const;
-  Eigen::Isometry3d region_from_map(const BoxRegion& region) const;
 
   MeshPublisher* publisher_;
   const tf2_ros::Buffer* buffer_;

@@ -13,11 +13,13 @@
 
 namespace facet_mapping {
 
-/// The configuration for a request: the node's own where the request says nothing. Throws
-/// std::invalid_argument with a sentence on what is out of range or not supported yet (region,
-/// classes).
-RefinementConfig refinement_config(const Refine::Request& request,
-                                   const RefinementConfig& defaults);
+/// The configuration for a request: the node's own where the request says nothing.
+/// `region_from_map` leads into the frame of the request's region. Throws std::invalid_argument
+/// with a sentence on what is out of range.
+RefinementConfig refinement_config(
+    const Refine::Request& request,
+    const RefinementConfig& defaults,
+    const Eigen::Isometry3d& region_from_map = Eigen::Isometry3d::Identity());
 
 /// Estimated peak memory of a refinement beyond what the node holds already, in MiB: images,
 /// renderings and gradients of every view on the finest level, and the mesh after subdivision.

@@ -15,6 +15,7 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+#include <tf2_ros/buffer.h>
 
 #include "facet_mapping/ros/keyframe_store.h"
 #include "facet_mapping/ros/long_job.h"
@@ -29,6 +30,7 @@ class RefineServices {
     std::function<MeshStatePtr()> map_mesh;  ///< the mapper's newest mesh, or null
     std::string map_mesh_topic;
     std::string image_topic;
+    const tf2_ros::Buffer* tf = nullptr;  ///< for the frame of a request's region
     const KeyframeStore* keyframes = nullptr;
     MeshPublisher* refined = nullptr;
     NodeDiagnostics* diagnostics = nullptr;
