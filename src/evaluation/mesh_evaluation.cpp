@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "facet_mapping/geometry/self_intersections.h"
 #include "facet_mapping/labels/label_image.h"
 #include "facet_mapping/render/facet_renderer.h"
 
@@ -127,6 +128,9 @@ MeshEvaluation evaluate_mesh(const TriangleMesh& mesh,
     throw std::runtime_error(
         "none of the chosen views has ground truth that this mesh can be compared with: a depth "
         "image, a scan, or ground-truth labels for a labelled mesh");
+  }
+  if (options.self_intersections) {
+    result.self_intersections = count_self_intersections(mesh);
   }
   return result;
 }

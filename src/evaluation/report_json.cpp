@@ -78,6 +78,9 @@ ordered_json mesh_json(const NamedEvaluation& mesh, const LabelSet& labels) {
                        {"scan_views", evaluation.scan_views},
                        {"label_views", evaluation.label_views},
                        {"depth", depth_json(evaluation.depth)}};
+  if (evaluation.self_intersections) {
+    json["self_intersections"] = *evaluation.self_intersections;
+  }
   if (evaluation.label_views > 0) {
     json["labels"] = labels_json(evaluation.labels, labels);
   }

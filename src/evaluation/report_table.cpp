@@ -245,6 +245,11 @@ std::string evaluation_table(const std::vector<NamedEvaluation>& meshes,
   table.names();
   table.count("facets", [](const auto& e) { return as_double(e.facets); });
   table.count("vertices", [](const auto& e) { return as_double(e.vertices); });
+  if (any(meshes, [](const auto& e) { return e.self_intersections.has_value(); })) {
+    table.count("self-intersections", [](const auto& e) {
+      return e.self_intersections ? as_double(*e.self_intersections) : NAN;
+    });
+  }
   table.count("views with a depth image",
               [](const auto& e) { return as_double(e.depth_image_views); });
   table.count("views with a scan only", [](const auto& e) { return as_double(e.scan_views); });

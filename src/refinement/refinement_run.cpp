@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "facet_mapping/refinement/image_pyramid.h"
+#include "facet_mapping/refinement/mesh_quality.h"
 #include "facet_mapping/refinement/subdivision.h"
 
 namespace facet_mapping {
@@ -113,6 +114,11 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
   split_facets(*problem);
+  if (config_.keep_quality) {
+    const bool all = config_.part.is_everything();
+    const auto part = all ? std::vector<std::uint8_t>() : facets_of_part(current_, config_.part);
+    current_ = improve_quality(current_, {}, nullptr, part);
+  }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
   bool go_on = true;

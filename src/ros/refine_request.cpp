@@ -102,6 +102,7 @@ double estimate_refine_mib(const TriangleMesh& mesh,
   // and one rendering (ids, depth), a third more for the pyramid; per facet positions, normals,
   // adjacency and gradients of two meshes.
   constexpr double kBytesPerPixel = 28.0 * 4.0 / 3.0;
+  constexpr double kBytesPerPairPixel = 6.0;  // the energies of three shapes
   constexpr double kBytesPerFacet = 600.0;
   double pixels = 0.0;
   double facets = static_cast<double>(mesh.triangles.size());
@@ -110,7 +111,8 @@ double estimate_refine_mib(const TriangleMesh& mesh,
   }
   // Subdivision stops where facets cover subdivide_px pixels.
   facets = std::max(facets, pixels / config.subdivide_px);
-  return (pixels * kBytesPerPixel + facets * kBytesPerFacet) / (1024.0 * 1024.0);
+  const double per_pixel = kBytesPerPixel + kBytesPerPairPixel * config.pairs_per_view;
+  return (pixels * per_pixel + facets * kBytesPerFacet) / (1024.0 * 1024.0);
 }
 
 }  // namespace facet_mapping

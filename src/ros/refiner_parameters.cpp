@@ -33,6 +33,9 @@ void add_flows(ParameterTable* table, RefinementConfig* c) {
              "",
              "factor of both weights on classes marked planar",
              {1.0, 1000.0});
+  table->add("refinement/keep_quality",
+             &c->keep_quality,
+             "collapse and flip edges of badly shaped facets before each level");
   table->add("refinement/relabel", &c->relabel, "label the mesh anew after each level");
 }
 

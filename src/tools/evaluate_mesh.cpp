@@ -64,6 +64,9 @@ void add_measures(CLI::App& app, Options& options) {
                  options.evaluation.min_class_pixels,
                  "Classes need more ground-truth pixels than this to enter the label means")
       ->capture_default_str();
+  app.add_flag("--self-intersections",
+               options.evaluation.self_intersections,
+               "Count the pairs of facets that run through each other, too");
 }
 
 void add_options(CLI::App& app, Options& options) {

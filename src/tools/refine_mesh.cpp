@@ -34,6 +34,7 @@ struct Options {
   bool no_relabel = false;
   double perturb_px = 0.0;
   std::uint64_t seed = 1;
+  bool no_keep_quality = false;
   std::vector<double> box;  ///< mesh frame, metres
   RefinementConfig config;
 };
@@ -65,6 +66,9 @@ void add_config_options(CLI::App* app, Options* options) {
   app->add_option("--subdivide-px", config.subdivide_px, "largest facet, pixels")
       ->capture_default_str();
   app->add_flag("--no-relabel", options->no_relabel, "keep the facets' labels");
+  app->add_flag("--no-keep-quality",
+                options->no_keep_quality,
+                "do not collapse and flip badly shaped facets");
   app->add_option("--box", options->box, "refine only this: MIN_X MIN_Y MIN_Z MAX_X MAX_Y MAX_Z")
       ->expected(6);
   app->add_option("--classes", config.part.classes, "refine only facets of these classes (ids)");
@@ -157,6 +161,7 @@ void run(Options options) {
     }
   }
   options.config.relabel = !options.no_relabel;
+  options.config.keep_quality = !options.no_keep_quality;
   MeshFile file = read_ply(options.mesh);
   if (!options.labels.empty()) {
     file.labels = LabelSet::load(options.labels);

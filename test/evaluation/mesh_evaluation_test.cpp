@@ -198,6 +198,26 @@ TEST_F(MeshEvaluationTest, AreasPerClass) {
   EXPECT_DOUBLE_EQ(areas[1].area_m2, 60.0);
 }
 
+TEST_F(MeshEvaluationTest, SelfIntersectionsAreCountedWhenAskedFor) {
+  TriangleMesh mesh;
+  add_wall(2.0, -20, 20, 2, mesh);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{9.1, 8.3, 1}, {9.1, 8.3, 3}, {9.3, 8.3, 3}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.labels.push_back(2);
+  EvaluationOptions options;
+  const auto table = [&] {
+    const std::vector<NamedEvaluation> meshes = {
+        {"wall", evaluate_mesh(mesh, labels_, dataset_, options)}};
+    return evaluation_table(meshes, options.depth, labels_) +
+           evaluation_json(meshes, options.depth, labels_);
+  };
+  EXPECT_EQ(table().find("self"), std::string::npos);
+  options.self_intersections = true;
+  EXPECT_TRUE(std::regex_search(table(), std::regex("self-intersections +1\n")));
+  EXPECT_NE(table().find("\"self_intersections\": 1,"), std::string::npos);
+}
+
 TEST_F(MeshEvaluationTest, TableAndJsonTellTheSame) {
   TriangleMesh before;
   add_wall(2.5, -20, 20, 2, before);

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <stdexcept>
 
 #include "support/meshes.h"
 #include "textured_scene.h"
@@ -193,6 +196,47 @@ TEST(PhotometricEnergy, GrazingFacetsGetNoForce) {
   for (const Eigen::Vector3d& g : energy.field.gradient) {
     EXPECT_EQ(g.norm(), 0.0);
   }
+}
+
+PhotometricEnergy energy_of(const std::vector<std::uint16_t>& pixels) {
+  PhotometricEnergy energy;
+  energy.maps = {{cv::Mat(1, static_cast<int>(pixels.size()), CV_16UC1)}};
+  std::copy(pixels.begin(), pixels.end(), energy.maps[0][0].begin<std::uint16_t>());
+  return energy;
+}
+
+TEST(PhotometricChange, OnlyPixelsOfBothShapesCount) {
+  const PhotometricEnergy from = energy_of({3000, 6000, kNotCounted, 60000});
+  EXPECT_DOUBLE_EQ(mean_change(from, from), 0.0);
+  // One pixel better by 0.1, one hidden that was bad, one shown that is bad.
+  const PhotometricEnergy to = energy_of({3000, 3000, 60000, kNotCounted});
+  EXPECT_DOUBLE_EQ(mean_change(from, to), -0.05);
+  EXPECT_DOUBLE_EQ(mean_change(to, from), 0.05);
+  EXPECT_DOUBLE_EQ(mean_change(from, energy_of({kNotCounted, kNotCounted, 5, kNotCounted})), 0.0);
+  EXPECT_THROW(mean_change(from, PhotometricEnergy()), std::invalid_argument);
+}
+
+TEST(PhotometricChange, MapsHoldTheSum) {
+  const Problem problem = plane_problem();
+  const PhotometricEnergy energy =
+      photometric_energy(problem.mesh,
+                         problem.views,
+                         render_surfaces(problem.mesh, problem.poses, kMinCos),
+                         problem.partners,
+                         problem.config,
+                         false);
+  double sum = 0.0;
+  std::size_t pixels = 0;
+  for (const std::vector<cv::Mat>& maps : energy.maps) {
+    for (const cv::Mat& map : maps) {
+      for (auto at = map.begin<std::uint16_t>(); at != map.end<std::uint16_t>(); ++at) {
+        pixels += *at != kNotCounted ? 1 : 0;
+        sum += *at != kNotCounted ? *at / kEnergyUnits : 0.0;
+      }
+    }
+  }
+  EXPECT_EQ(pixels, energy.pixels);
+  EXPECT_NEAR(sum / energy.sum, 1.0, 1e-3);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct EvaluationOptions {
   /// Classes with more ground-truth pixels than this enter the label means.
   std::size_t min_class_pixels = 100;
   Hidden hidden;
+  bool self_intersections = false;  ///< count them, too; takes seconds per million facets
 };
 
 struct ViewScores {
@@ -56,6 +58,8 @@ struct MeshEvaluation {
   LabelScores labels;  ///< over all views; no pixels if mesh or dataset has no labels
   std::vector<ViewScores> views;
   std::vector<ClassArea> areas;  ///< ascending ids, unlabelled last; empty without labels
+  /// Pairs of facets that run through each other, hidden ones too; nothing unless asked for.
+  std::optional<std::size_t> self_intersections;
 };
 
 /// Called after each view.

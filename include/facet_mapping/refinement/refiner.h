@@ -42,6 +42,7 @@ struct RefinementConfig {
   double max_step_edge_fraction = 0.25;  ///< longest step of a vertex, in mean edge lengths
   double subdivide_px = 24.0;  ///< facets covering more pixels in their best view are split
   bool relabel = true;         ///< run the labelling after each level
+  bool keep_quality = true;    ///< collapse and flip badly shaped facets before each level
   LabelingConfig labeling;
   MeshPart part;  ///< what may change; facets outside keep their shape and class
 };
@@ -75,12 +76,15 @@ struct RefinementResult {
 /// Moves the vertices of `mesh` so that images and segmentations agree with it. A mesh without
 /// labels is labelled first if there are segmentations (all of it, `config.part` or not). Pixels
 /// that a segmentation calls sky (by the flag in `labels`) tell photometry nothing; facets of
-/// planar classes are smoothed more. What no view sees stays where it is. The result's energies are
-/// never above the start's; if no better shape is found, the start is returned. With zero
-/// iterations nothing but labels changes. Of a part, the energies are those of the pixels that show
-/// it, and views that do not see it are left out. Throws std::invalid_argument if fewer than two
-/// views are given or see the part, a view has no image of the camera's size, the mesh is invalid
-/// or the configuration is out of range.
+/// planar classes are smoothed more. What no view sees stays where it is. Over the pixels that both
+/// show, the result's energy is not above the start's; if no better shape is found, the start is
+/// returned. (The means in the result are over each shape's own pixels: they may rise where more
+/// has become visible.) With zero iterations nothing but labels changes.
+/// Of a part, the photometric energy is that of the pixels that show it, and views that do not see
+/// it are left out.
+///
+/// Throws std::invalid_argument if fewer than two views are given or see the part, a view has no
+/// image of the camera's size, the mesh is invalid or the configuration is out of range.
 RefinementResult refine(const TriangleMesh& mesh,
                         const std::vector<LabeledView>& views,
                         const LabelSet& labels,
