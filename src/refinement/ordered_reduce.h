@@ -17,7 +17,7 @@ template <typename Work, typename Combine>
 void ordered_reduce(std::size_t count, const Work& work, const Combine& combine) {
   std::size_t started = 0;
   std::size_t finished = 0;
-  const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
+  const auto tokens = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   using Result = decltype(work(std::size_t{0}));
   tbb::parallel_pipeline(
       tokens,
