@@ -155,6 +155,7 @@ TEST_F(MapWorkerThreadsTest, ResetsFromAnotherThread) {
   }
   done = true;
   driver.join();
+  worker_->stop();  // an update may still be under way
   EXPECT_GE(updates_, 10U);
   EXPECT_EQ(errors_, 0U);
 }
