@@ -16,6 +16,8 @@
 #include "carving/steiner_grid.h"
 #include "carving/surface.h"
 
+#include "facet_mapping/geometry/segment.h"
+
 namespace facet_mapping {
 
 using namespace carving;  // NOLINT(google-build-using-namespace): this file is that room's door
@@ -30,15 +32,6 @@ Eigen::Vector3d general_position(const Eigen::Vector3d& center) {
   const double angle = 43.758 * std::sin(center.dot(frequency)) + center.sum();
   return center +
          kJitterM * Eigen::Vector3d(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
-}
-
-double distance_to_segment(const Eigen::Vector3d& point,
-                           const Eigen::Vector3d& a,
-                           const Eigen::Vector3d& b) {
-  const Eigen::Vector3d ab = b - a;
-  const double length = ab.squaredNorm();
-  const double along = length > 0.0 ? std::clamp((point - a).dot(ab) / length, 0.0, 1.0) : 0.0;
-  return (a + along * ab - point).norm();
 }
 
 void check_frame(const CarvingFrame& frame) {

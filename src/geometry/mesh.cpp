@@ -17,17 +17,6 @@ void check_attribute(std::size_t size, std::size_t facets, const char* name) {
   }
 }
 
-template <typename T>
-std::vector<T> select(const std::vector<T>& values, const std::vector<bool>& keep) {
-  std::vector<T> selected;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (keep[k]) {
-      selected.push_back(values[k]);
-    }
-  }
-  return selected;
-}
-
 }  // namespace
 
 void validate(const TriangleMesh& mesh) {
@@ -101,9 +90,9 @@ TriangleMesh select_facets(const TriangleMesh& mesh, const std::vector<bool>& ke
     }
     selected.triangles.push_back(triangle);
   }
-  selected.labels = select(mesh.labels, keep);
-  selected.confidence = select(mesh.confidence, keep);
-  selected.views = select(mesh.views, keep);
+  selected.labels = select_values(mesh.labels, keep);
+  selected.confidence = select_values(mesh.confidence, keep);
+  selected.views = select_values(mesh.views, keep);
   return selected;
 }
 

@@ -7,17 +7,10 @@
 
 #include "quality_steps.h"
 
+#include "facet_mapping/geometry/segment.h"
+
 namespace facet_mapping {
 namespace {
-
-double distance_to_segment(const Eigen::Vector3d& p,
-                           const Eigen::Vector3d& a,
-                           const Eigen::Vector3d& b) {
-  const Eigen::Vector3d ab = b - a;
-  const double squared = ab.squaredNorm();
-  const double at = squared > 0.0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-  return (a + at * ab - p).norm();
-}
 
 Triangle merged(Triangle t, std::uint32_t from, std::uint32_t to) {
   std::replace(t.begin(), t.end(), from, to);

@@ -105,9 +105,12 @@ VertexField LevelProblem::semantic_field(const Shape& shape) const {
   return std::move(parts.contours);
 }
 
+bool LevelProblem::is_single_view() const {
+  return config_.semantic != SemanticMode::kOff && config_.semantic != SemanticMode::kPairwise;
+}
+
 void LevelProblem::evaluate_semantic(Shape* shape, bool with_gradient) const {
-  const bool single = config_.semantic != SemanticMode::kOff &&  //
-                      config_.semantic != SemanticMode::kPairwise;
+  const bool single = is_single_view();
   if (single || !with_gradient) {  // otherwise it is only reported, before and after
     shape->gates =
         semantic_gates(shape->mesh, semantic_views_, shape->surfaces, config_.semantic_window_px);
@@ -126,12 +129,10 @@ void LevelProblem::start(const Shape& shape) {
   umbrella_.emplace(shape.mesh);
   weights_ = smoothing_weights(shape.mesh, poses_, shape.surfaces, config_.pairs_per_view);
   smooth_planes(shape.mesh);
-  if (!config_.part.is_everything()) {
-    const std::vector<std::uint8_t> inside =
-        vertices_inside(shape.mesh, facets_of_part(shape.mesh, config_.part));
-    for (std::size_t k = 0; k < weights_.size(); ++k) {
-      weights_[k] *= inside[k];
-    }
+  const std::vector<std::uint8_t> inside =
+      vertices_inside(shape.mesh, facets_of_part(shape.mesh, config_.part));
+  for (std::size_t k = 0; k < weights_.size(); ++k) {
+    weights_[k] *= inside[k];
   }
 }
 
@@ -155,17 +156,14 @@ double LevelProblem::semantic_scale() const {
 }
 
 double LevelProblem::label_energy(const Shape& shape,
-                                  const std::vector<SemanticGate>& gates,
+                                  double semantic_sum,
                                   std::size_t pixels) const {
-  if (config_.semantic == SemanticMode::kOff) {
-    return 0.0;
-  }
   if (config_.semantic == SemanticMode::kPairwise) {
     // The mean, not the sum: hiding pixels must not count as an improvement.
     const auto count = static_cast<double>(std::max<std::size_t>(1, shape.pairwise.pixels));
     return config_.semantic_weight * shape.pairwise.sum / count * static_cast<double>(pixels);
   }
-  return semantic_scale() * semantic_energy(shape.mesh, semantic_views_, shape.surfaces, gates).sum;
+  return is_single_view() ? semantic_scale() * semantic_sum : 0.0;
 }
 
 VectorField LevelProblem::find_step(const Shape& shape, const SmoothingTerm& smoothing) const {
@@ -175,7 +173,7 @@ VectorField LevelProblem::find_step(const Shape& shape, const SmoothingTerm& smo
   }
   if (config_.semantic == SemanticMode::kPairwise) {
     data.add(shape.pairwise.field, config_.semantic_weight);
-  } else if (config_.semantic != SemanticMode::kOff) {
+  } else if (is_single_view()) {
     data.add(shape.semantic.field, semantic_scale());
   }
   for (double& curvature : data.curvature) {
@@ -197,8 +195,7 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
   smooth.thin_plate = config_.thin_plate;
   const SmoothingTerm smoothing(shape.mesh, *umbrella_, weights_, smooth);
   const std::size_t pixels = shape.photometric.pixels;
-  const double others = label_energy(shape, shape.gates, pixels) +  //
-                        smoothing.energy(shape.mesh.vertices);
+  const double others = label_energy(shape, pixels) + smoothing.energy(shape.mesh.vertices);
   VectorField step = find_step(shape, smoothing);
   for (int k = 0; k <= kHalvings; ++k) {
     prevent_flips(shape.mesh, &step);
@@ -207,8 +204,12 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
       moved.vertices[v] += step[v];
     }
     Shape trial = evaluate(std::move(moved), true);
+    const double semantic_sum =
+        is_single_view()
+            ? semantic_energy(trial.mesh, semantic_views_, trial.surfaces, shape.gates).sum
+            : 0.0;
     double change =
-        label_energy(trial, shape.gates, pixels) + smoothing.energy(trial.mesh.vertices) - others;
+        label_energy(trial, semantic_sum, pixels) + smoothing.energy(trial.mesh.vertices) - others;
     if (config_.photometric) {
       change += mean_change(shape.photometric, trial.photometric) * static_cast<double>(pixels);
     }

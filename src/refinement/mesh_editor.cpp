@@ -161,28 +161,13 @@ TriangleMesh MeshEditor::take() && {
     count += merged_[v] ? 0 : 1;
   }
   mesh_.vertices.resize(count);
-  std::size_t facets = 0;
-  for (std::size_t f = 0; f < alive_.size(); ++f) {
-    if (!alive_[f]) {
-      continue;
-    }
-    const Triangle& t = mesh_.triangles[f];
-    mesh_.triangles[facets] = {index[t[0]], index[t[1]], index[t[2]]};
-    const auto carry = [f, facets](auto* values) {
-      if (!values->empty()) {
-        (*values)[facets] = (*values)[f];
-      }
-    };
-    carry(&mesh_.labels);
-    carry(&mesh_.confidence);
-    carry(&mesh_.views);
-    ++facets;
+  mesh_.triangles = select_values(mesh_.triangles, alive_);
+  for (Triangle& t : mesh_.triangles) {
+    t = {index[t[0]], index[t[1]], index[t[2]]};
   }
-  const auto cut = [facets](auto* values) { values->resize(values->empty() ? 0 : facets); };
-  mesh_.triangles.resize(facets);
-  cut(&mesh_.labels);
-  cut(&mesh_.confidence);
-  cut(&mesh_.views);
+  mesh_.labels = select_values(mesh_.labels, alive_);
+  mesh_.confidence = select_values(mesh_.confidence, alive_);
+  mesh_.views = select_values(mesh_.views, alive_);
   return std::move(mesh_);
 }
 

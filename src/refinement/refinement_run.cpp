@@ -69,8 +69,7 @@ RefinementRun::Measured RefinementRun::measure(const TriangleMesh& mesh, std::si
   Shape shape = finest_.evaluate(mesh, false);
   const std::size_t count =
       std::max<std::size_t>(1, pixels > 0 ? pixels : shape.photometric.pixels);
-  const double labels =
-      finest_.label_energy(shape, shape.gates, count) / static_cast<double>(count);
+  const double labels = finest_.label_energy(shape, count) / static_cast<double>(count);
   return {shape.terms(), std::move(shape.photometric), labels};
 }
 
@@ -101,11 +100,8 @@ bool RefinementRun::refine_level(int level) {
 void RefinementRun::split_facets(const LevelProblem& problem) {
   const std::size_t facets = current_.triangles.size();
   std::vector<double> pixels = best_view_pixels(current_, problem.render(current_));
-  if (!config_.part.is_everything()) {
-    const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
-    std::transform(
-        pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
-  }
+  const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
+  std::transform(pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
   current_ = subdivide(current_, pixels, config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
@@ -115,9 +111,7 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
   split_facets(*problem);
   if (config_.keep_quality) {
-    const bool all = config_.part.is_everything();
-    const auto part = all ? std::vector<std::uint8_t>() : facets_of_part(current_, config_.part);
-    current_ = improve_quality(current_, {}, nullptr, part);
+    current_ = improve_quality(current_, {}, nullptr, facets_of_part(current_, config_.part));
   }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);

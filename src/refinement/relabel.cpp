@@ -8,9 +8,6 @@ namespace facet_mapping {
 namespace {
 
 void keep_outside(const TriangleMesh& mesh, const MeshPart& part, LabelingResult* labeling) {
-  if (part.is_everything()) {
-    return;
-  }
   const std::vector<std::uint8_t> inside = facets_of_part(mesh, part);
   for (std::size_t f = 0; f < inside.size(); ++f) {
     if (inside[f] == 0) {

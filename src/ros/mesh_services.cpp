@@ -17,10 +17,6 @@ std::string facets_text(std::size_t facets) {
   return std::to_string(facets) + " facets";
 }
 
-std::vector<Label> to_labels(const std::vector<std::uint16_t>& classes) {
-  return {classes.begin(), classes.end()};
-}
-
 std::size_t count_facets(const LabeledMesh& message) {
   std::size_t facets = 0;
   for (const LabeledMeshChunk& chunk : message.chunks) {
@@ -79,7 +75,7 @@ bool MeshServices::get_mesh(GetMesh::Request& request, GetMesh::Response& respon
         lookup_region_from_map(request.region, publisher_->frame_id(), *buffer_);
     const MeshStatePtr state = mesh_within(request.region, region_from_map);
     const TriangleMesh part =
-        filter_mesh(state->mesh, request.region, region_from_map, to_labels(request.classes));
+        filter_mesh(state->mesh, request.region, region_from_map, request.classes);
     response.mesh = publisher_->detached_message(part, state->stamp);
     return facets_text(part.triangles.size()) + " of " + std::to_string(publisher_->facets());
   });
@@ -91,8 +87,8 @@ bool MeshServices::save_mesh(SaveMesh::Request& request, SaveMesh::Response& res
     const std::string path = mesh_path(request.path);
     require_mesh();
     const MeshStatePtr state = mesh_within(BoxRegion(), Eigen::Isometry3d::Identity());
-    const TriangleMesh part = filter_mesh(
-        state->mesh, BoxRegion(), Eigen::Isometry3d::Identity(), to_labels(request.classes));
+    const TriangleMesh part =
+        filter_mesh(state->mesh, BoxRegion(), Eigen::Isometry3d::Identity(), request.classes);
     if (part.empty()) {
       throw std::invalid_argument("no facet has one of the classes asked for; nothing was written");
     }

@@ -77,6 +77,18 @@ Adjacency vertex_facets(const TriangleMesh& mesh);
 /// For each vertex the vertices joined to it by an edge, in ascending order.
 Adjacency vertex_neighbours(const TriangleMesh& mesh);
 
+/// The values whose `keep` is true, in their order; none of an attribute that is not there (empty).
+template <typename Value>
+std::vector<Value> select_values(const std::vector<Value>& values, const std::vector<bool>& keep) {
+  std::vector<Value> selected;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (keep[k]) {
+      selected.push_back(values[k]);
+    }
+  }
+  return selected;
+}
+
 /// The facets with `keep[facet]` true, with unused vertices dropped and attributes carried along.
 TriangleMesh select_facets(const TriangleMesh& mesh, const std::vector<bool>& keep);
 

@@ -58,12 +58,14 @@ class LevelProblem {
   std::optional<Shape> improve(const Shape& shape) const;
 
   /// What the segmentations add to the energy of a shape, in the units of a photometric sum over
-  /// `pixels` pixels, the single-view term under the given gates.
-  double label_energy(const Shape& shape,
-                      const std::vector<SemanticGate>& gates,
-                      std::size_t pixels) const;
+  /// `pixels` pixels.
+  double label_energy(const Shape& shape, std::size_t pixels) const {
+    return label_energy(shape, shape.semantic.sum, pixels);
+  }
 
  private:
+  double label_energy(const Shape& shape, double semantic_sum, std::size_t pixels) const;
+  bool is_single_view() const;
   VectorField find_step(const Shape& shape, const SmoothingTerm& smoothing) const;
   double semantic_scale() const;
   VertexField semantic_field(const Shape& shape) const;
