@@ -3,86 +3,73 @@
 #include "facet_mapping/geometry/self_intersections.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <utility>
-#include <vector>
+#include <stdexcept>
 
-#ifdef __clang_analyzer__
-#define CGAL_DO_NOT_USE_MPZF  // the analyser takes how it keeps its digits for an error
-#endif
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include "facets_cross.h"
+#include <CGAL/box_intersection_d.h>
 
 namespace facet_mapping {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using FacetPair = std::pair<Surface::Face_index, Surface::Face_index>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
-/// The mesh as CGAL wants it. A facet that would make it non-manifold gets corners of its own.
-struct Converted {
-  Surface surface;
-  std::vector<std::size_t> facets;  ///< of the mesh, per face
-  std::vector<bool> loose;          ///< per face: it has corners of its own
-};
-
-void add_facet(const TriangleMesh& mesh, std::size_t facet, Converted* to) {
+Box box_of(const TriangleMesh& mesh, std::uint32_t facet) {
   const Triangle& t = mesh.triangles[facet];
-  std::array<Surface::Vertex_index, 3> corners;
-  for (int k = 0; k < 3; ++k) {
-    corners[k] = Surface::Vertex_index(t[k]);
-  }
-  const bool fits = to->surface.add_face(corners[0], corners[1], corners[2]).is_valid();
-  if (!fits) {
-    for (Surface::Vertex_index& corner : corners) {
-      const Kernel::Point_3 point = to->surface.point(corner);
-      corner = to->surface.add_vertex(point);
-    }
-    to->surface.add_face(corners[0], corners[1], corners[2]);
-  }
-  to->facets.push_back(facet);
-  to->loose.push_back(!fits);
-}
-
-Converted convert(const TriangleMesh& mesh) {
-  Converted converted;
-  const std::size_t facets = mesh.triangles.size();
-  converted.surface.reserve(mesh.vertices.size(), 2 * facets, facets);
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    converted.surface.add_vertex({v.x(), v.y(), v.z()});
-  }
-  for (std::size_t f = 0; f < facets; ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
-      add_facet(mesh, f, &converted);
-    }
-  }
-  return converted;
-}
-
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(
-      a.begin(), a.end(), [&b](std::uint32_t v) { return v == b[0] || v == b[1] || v == b[2]; });
+  const Eigen::Vector3d& a = mesh.vertices[t[0]];
+  const Eigen::Vector3d& b = mesh.vertices[t[1]];
+  const Eigen::Vector3d& c = mesh.vertices[t[2]];
+  const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
+  const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
+  return {CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), facet};
 }
 
 }  // namespace
 
-std::size_t count_self_intersections(const TriangleMesh& mesh) {
+std::vector<FacetPair> find_self_intersections(const TriangleMesh& mesh,
+                                               const std::vector<std::uint8_t>& changed) {
   validate(mesh);
-  const Converted converted = convert(mesh);
+  if (!changed.empty() && changed.size() != mesh.triangles.size()) {
+    throw std::invalid_argument(
+        "find_self_intersections: give `changed` per facet or not at all");
+  }
+  std::vector<Box> changed_boxes;
+  std::vector<Box> other_boxes;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!is_degenerate(mesh, f)) {
+      const bool is_changed = changed.empty() || changed[f] != 0;
+      (is_changed ? changed_boxes : other_boxes).push_back(box_of(mesh, f));
+    }
+  }
   std::vector<FacetPair> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
-      converted.surface, std::back_inserter(pairs));
-  return static_cast<std::size_t>(
-      std::count_if(pairs.begin(), pairs.end(), [&](const FacetPair& pair) {
-        const auto [a, b] = pair;
-        const bool by_mesh = !converted.loose[a] && !converted.loose[b];
-        return a != b && (by_mesh || !share_a_vertex(mesh.triangles[converted.facets[a]],
-                                                     mesh.triangles[converted.facets[b]]));
-      }));
+  const auto test = [&](const Box& a, const Box& b) {
+    if (facets_cross(mesh, a.info(), b.info())) {
+      pairs.emplace_back(std::minmax(a.info(), b.info()));
+    }
+  };
+  CGAL::box_self_intersection_d(changed_boxes.begin(), changed_boxes.end(), test);
+  CGAL::box_intersection_d(changed_boxes.begin(),
+                           changed_boxes.end(),
+                           other_boxes.begin(),
+                           other_boxes.end(),
+                           test);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<FacetPair> keep_crossing(const TriangleMesh& mesh,
+                                     const std::vector<FacetPair>& pairs) {
+  std::vector<FacetPair> crossing;
+  std::copy_if(
+      pairs.begin(), pairs.end(), std::back_inserter(crossing), [&mesh](const FacetPair& pair) {
+        return !is_degenerate(mesh, pair.first) && !is_degenerate(mesh, pair.second) &&
+               facets_cross(mesh, pair.first, pair.second);
+      });
+  return crossing;
+}
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+  return find_self_intersections(mesh).size();
 }
 
 }  // namespace facet_mapping
