@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "facet_mapping/refinement/crossings.h"
 #include "facet_mapping/refinement/image_pyramid.h"
 #include "facet_mapping/refinement/mesh_quality.h"
 #include "facet_mapping/refinement/subdivision.h"
@@ -102,19 +103,26 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
   std::vector<double> pixels = best_view_pixels(current_, problem.render(current_));
   const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
   std::transform(pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
-  current_ = subdivide(current_, pixels, config_.subdivide_px);
+  current_ = subdivide_beside_crossings(current_, std::move(pixels), config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
   }
 }
 
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
+  if (getenv("XDBG"))
+    fprintf(stderr, "before %zu pairs\n", find_self_intersections(current_).size());
   split_facets(*problem);
+  if (getenv("XDBG"))
+    fprintf(stderr, "split %zu pairs\n", find_self_intersections(current_).size());
   if (config_.keep_quality) {
     current_ = improve_quality(current_, {}, nullptr, facets_of_part(current_, config_.part));
   }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
+  shape.crossing = find_self_intersections(shape.mesh);
+  if (getenv("XDBG"))
+    fprintf(stderr, "start of level %d: %zu pairs\n", level, shape.crossing.size());
   bool go_on = true;
   for (int k = 0; k < config_.iterations && go_on; ++k) {
     std::optional<Shape> improved = problem->improve(shape);
@@ -122,6 +130,7 @@ bool RefinementRun::iterate(int level, LevelProblem* problem) {
       break;
     }
     shape = std::move(*improved);
+    if (getenv("XDBG")) fprintf(stderr, "  now %zu pairs\n", shape.crossing.size());
     go_on = report(level, k, shape.terms());
   }
   current_ = std::move(shape.mesh);
