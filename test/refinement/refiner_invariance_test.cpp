@@ -17,8 +17,14 @@ Label half(const Eigen::Vector3d& point) {
   return point.x() + 0.2 * std::sin(3.0 * point.y()) < 0.05 ? 1 : 2;
 }
 
+/// With irregular facets: which of two sides of the same length is split is a matter of rounding.
 Scene segmented_ball() {
   Scene scene = test::bumpy_ball(4);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.004);
+  for (Eigen::Vector3d& v : scene.mesh.vertices) {
+    v += Eigen::Vector3d(noise(random), noise(random), noise(random));
+  }
   test::segment(test::sphere_surface(test::kBallRadius), half, &scene.views);
   return scene;
 }
@@ -43,14 +49,21 @@ TEST_P(UnitOfLengthTest, ScalesTheResult) {
   EXPECT_GT(a.mesh.triangles.size(), scene.mesh.triangles.size());  // some were split
   ASSERT_TRUE(a.mesh.triangles == b.mesh.triangles);
   EXPECT_EQ(a.mesh.labels, b.mesh.labels);
-  EXPECT_NEAR(a.after.photometric, b.after.photometric, 1e-4);
-  EXPECT_NEAR(a.after.semantic, b.after.semantic, 1e-4);
+  EXPECT_NEAR(a.after.photometric, b.after.photometric, 2e-4);
+  EXPECT_NEAR(a.after.semantic, b.after.semantic, 1e-3);
+  double sum = 0.0;
   double worst = 0.0;
   for (std::size_t k = 0; k < a.mesh.vertices.size(); ++k) {
-    worst = std::max(worst, (b.mesh.vertices[k] / GetParam() - a.mesh.vertices[k]).norm());
+    const double error_px =
+        scene.parallax_px_per_m * (b.mesh.vertices[k] / GetParam() - a.mesh.vertices[k]).norm();
+    sum += error_px * error_px;
+    worst = std::max(worst, error_px);
   }
-  RecordProperty("worst_px", std::to_string(worst * scene.parallax_px_per_m));
-  EXPECT_LT(worst * scene.parallax_px_per_m, 0.05);
+  const double rms = std::sqrt(sum / static_cast<double>(a.mesh.vertices.size()));
+  RecordProperty("rms_px", std::to_string(rms));
+  RecordProperty("worst_px", std::to_string(worst));
+  EXPECT_LT(rms, 0.02);
+  EXPECT_LT(worst, 0.5);  // whether one more pixel counts or not is a matter of rounding
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, UnitOfLengthTest, testing::Values(1000.0, 0.001));
