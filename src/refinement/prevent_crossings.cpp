@@ -74,13 +74,11 @@ std::size_t prevent_crossings(const TriangleMesh& mesh,
     if (added.empty()) {
       break;
     }
-    if (getenv("XDBG")) fprintf(stderr, "  round %d added %zu\n", round, added.size());
     const VectorField before = *step;
     shorten(mesh, added, round < kHalvings ? 0.5 : 0.0, step);
     prevent_flips(mesh, step);
     changed = facets_with(mesh, [&](std::uint32_t v) { return (*step)[v] != before[v]; });
   }
-  if (getenv("XDBG")) {
     int n = 0;
     for (size_t k = 0; k < asked.size(); ++k) n += asked[k] != (*step)[k];
     fprintf(stderr, "held %d\n", n);

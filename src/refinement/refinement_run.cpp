@@ -110,10 +110,8 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 }
 
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
-  if (getenv("XDBG"))
     fprintf(stderr, "before %zu pairs\n", find_self_intersections(current_).size());
   split_facets(*problem);
-  if (getenv("XDBG"))
     fprintf(stderr, "split %zu pairs\n", find_self_intersections(current_).size());
   if (config_.keep_quality) {
     current_ = improve_quality(current_, {}, nullptr, facets_of_part(current_, config_.part));
@@ -121,7 +119,6 @@ bool RefinementRun::iterate(int level, LevelProblem* problem) {
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
   shape.crossing = find_self_intersections(shape.mesh);
-  if (getenv("XDBG"))
     fprintf(stderr, "start of level %d: %zu pairs\n", level, shape.crossing.size());
   bool go_on = true;
   for (int k = 0; k < config_.iterations && go_on; ++k) {
@@ -130,7 +127,6 @@ bool RefinementRun::iterate(int level, LevelProblem* problem) {
       break;
     }
     shape = std::move(*improved);
-    if (getenv("XDBG")) fprintf(stderr, "  now %zu pairs\n", shape.crossing.size());
     go_on = report(level, k, shape.terms());
   }
   current_ = std::move(shape.mesh);
