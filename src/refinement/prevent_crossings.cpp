@@ -79,10 +79,6 @@ std::size_t prevent_crossings(const TriangleMesh& mesh,
     prevent_flips(mesh, step);
     changed = facets_with(mesh, [&](std::uint32_t v) { return (*step)[v] != before[v]; });
   }
-    int n = 0;
-    for (size_t k = 0; k < asked.size(); ++k) n += asked[k] != (*step)[k];
-    fprintf(stderr, "held %d\n", n);
-  }
   std::size_t held = 0;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     held += (*step)[k] != asked[k] ? 1 : 0;

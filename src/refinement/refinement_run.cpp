@@ -110,16 +110,13 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
 }
 
 bool RefinementRun::iterate(int level, LevelProblem* problem) {
-    fprintf(stderr, "before %zu pairs\n", find_self_intersections(current_).size());
   split_facets(*problem);
-    fprintf(stderr, "split %zu pairs\n", find_self_intersections(current_).size());
   if (config_.keep_quality) {
     current_ = improve_quality(current_, {}, nullptr, facets_of_part(current_, config_.part));
   }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
   shape.crossing = find_self_intersections(shape.mesh);
-    fprintf(stderr, "start of level %d: %zu pairs\n", level, shape.crossing.size());
   bool go_on = true;
   for (int k = 0; k < config_.iterations && go_on; ++k) {
     std::optional<Shape> improved = problem->improve(shape);

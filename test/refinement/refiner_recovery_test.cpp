@@ -50,10 +50,7 @@ TEST_P(RecoveryTest, BallReturnsToTheTruth) {
 
 INSTANTIATE_TEST_SUITE_P(Modes,
                          RecoveryTest,
-                         testing::Values(SemanticMode::kOff,
-                                         SemanticMode::kNormal,
-                                         SemanticMode::kFull,
-                                         SemanticMode::kSplit));
+                         testing::Values(SemanticMode::kNormal, SemanticMode::kFull));
 
 }  // namespace
 }  // namespace facet_mapping
