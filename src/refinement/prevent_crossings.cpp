@@ -21,20 +21,19 @@ std::vector<std::uint8_t> facets_with(const TriangleMesh& mesh, const VertexTest
   return facets;
 }
 
-/// Pairs of the changed facets that cross once `step` is made and did not before.
+/// Pairs of the changed facets that cross once `step` is made and did not before. `moved` has the
+/// mesh's facets; its vertices are overwritten.
 std::vector<FacetPair> new_crossings(const TriangleMesh& mesh,
                                      const std::vector<FacetPair>& known,
                                      const VectorField& step,
-                                     const std::vector<std::uint8_t>& changed) {
-  TriangleMesh moved;
-  moved.triangles = mesh.triangles;
-  moved.vertices.resize(step.size());
+                                     const std::vector<std::uint8_t>& changed,
+                                     TriangleMesh* moved) {
   std::transform(mesh.vertices.begin(),
                  mesh.vertices.end(),
                  step.begin(),
-                 moved.vertices.begin(),
+                 moved->vertices.begin(),
                  std::plus<Eigen::Vector3d>());
-  const std::vector<FacetPair> now = find_self_intersections(moved, changed);
+  const std::vector<FacetPair> now = find_self_intersections(*moved, changed);
   std::vector<FacetPair> added;
   std::set_difference(
       now.begin(), now.end(), known.begin(), known.end(), std::back_inserter(added));
@@ -63,14 +62,17 @@ void shorten(const TriangleMesh& mesh,
 std::size_t prevent_crossings(const TriangleMesh& mesh,
                               const std::vector<FacetPair>& crossing,
                               VectorField* step) {
-  constexpr int kHalvings = 2;
+  constexpr int kHalvings = 1;  // more would seldom do
   const VectorField asked = *step;
+  TriangleMesh moved;
+  moved.triangles = mesh.triangles;
+  moved.vertices.resize(mesh.vertices.size());
   prevent_flips(mesh, step);
   std::vector<std::uint8_t> changed =
       facets_with(mesh, [&](std::uint32_t v) { return !(*step)[v].isZero(0.0); });
   // Every round after the halvings stops further vertices for good, so the loop ends.
   for (int round = 0;; ++round) {
-    const std::vector<FacetPair> added = new_crossings(mesh, crossing, *step, changed);
+    const std::vector<FacetPair> added = new_crossings(mesh, crossing, *step, changed, &moved);
     if (added.empty()) {
       break;
     }

@@ -135,7 +135,7 @@ TEST(ImageSize, HalvedImagesGiveTheSameShapeAndClasses) {
   RecordProperty("wrong", std::to_string(wrong_share(whole)));
   RecordProperty("wrong_halved", std::to_string(wrong_share(halved)));
   EXPECT_GT(start, 0.15);
-  EXPECT_LT(apart, 0.05);
+  EXPECT_LT(apart, 0.03);
   EXPECT_LT(wrong_share(whole), 0.02);
   EXPECT_LT(wrong_share(halved), 0.03);
 }
