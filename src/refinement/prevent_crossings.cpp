@@ -32,7 +32,7 @@ std::vector<FacetPair> new_crossings(const TriangleMesh& mesh,
                  mesh.vertices.end(),
                  step.begin(),
                  moved->vertices.begin(),
-                 std::plus<Eigen::Vector3d>());
+                 std::plus<>());
   const std::vector<FacetPair> now = find_self_intersections(*moved, changed);
   std::vector<FacetPair> added;
   std::set_difference(

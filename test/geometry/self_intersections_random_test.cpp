@@ -114,6 +114,15 @@ INSTANTIATE_TEST_SUITE_P(Seeds,
                                           testing::Bool(),
                                           testing::Bool()));
 
+/// All but two facets share one cell of whatever orders them in space.
+TEST(SelfIntersections, AreFoundBesideFacetsThatAreVeryFarAway) {
+  const TriangleMesh near = rough_surface(1, true, false);
+  TriangleMesh far;
+  far.vertices = {{1e15, 0.0, 0.0}, {1e15, 1e14, 0.0}, {1e15, 0.0, 1e14}};
+  far.triangles = {{0, 1, 2}};
+  EXPECT_EQ(find_self_intersections(test::joined(near, far)), find_self_intersections(near));
+}
+
 TEST(SelfIntersections, RefusesChangesOfOtherFacets) {
   EXPECT_THROW(find_self_intersections(test::make_sphere(1.0, 1), {1, 0}), std::invalid_argument);
 }
