@@ -34,7 +34,11 @@ RefinementRun::RefinementRun(const TriangleMesh& mesh,
       config_(config),
       progress_(progress),
       finest_(views, labels, config),
-      current_(mesh) {}
+      current_(mesh) {
+  if (current_.start_points.empty()) {
+    current_.start_points = current_.vertices;
+  }
+}
 
 RefinementResult RefinementRun::run() {
   result_.facets_before = start_.triangles.size();

@@ -64,7 +64,7 @@ struct RefinementProgress {
 using ProgressCallback = std::function<bool(const RefinementProgress&)>;
 
 struct RefinementResult {
-  TriangleMesh mesh;
+  TriangleMesh mesh;   ///< with start_points: on the start mesh, or on that mesh's own start
   EnergyTerms before;  ///< of the start mesh on the finest level's images
   EnergyTerms after;   ///< of the result on the same images
   std::size_t facets_before = 0;
