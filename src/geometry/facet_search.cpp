@@ -8,26 +8,20 @@
 #include <Eigen/Geometry>
 
 namespace facet_mapping {
-namespace {
 
-/// Barycentric, by areas; a facet without area is all its first corner.
-Eigen::Vector3d weights_at(const FacetSource& source,
-                           std::uint32_t facet,
-                           const Eigen::Vector3d& p) {
-  const Eigen::Vector3d& a = source.corner(facet, 0);
-  const Eigen::Vector3d& b = source.corner(facet, 1);
-  const Eigen::Vector3d& c = source.corner(facet, 2);
+Eigen::Vector3d barycentric_weights(const Eigen::Vector3d& a,
+                                    const Eigen::Vector3d& b,
+                                    const Eigen::Vector3d& c,
+                                    const Eigen::Vector3d& point) {
   const Eigen::Vector3d normal = (b - a).cross(c - a);
   const double squared = normal.squaredNorm();
   if (!(squared > 0.0)) {
     return Eigen::Vector3d::UnitX();
   }
-  const double second = normal.dot((p - a).cross(c - a)) / squared;
-  const double third = normal.dot((b - a).cross(p - a)) / squared;
+  const double second = normal.dot((point - a).cross(c - a)) / squared;
+  const double third = normal.dot((b - a).cross(point - a)) / squared;
   return {1.0 - second - third, second, third};
 }
-
-}  // namespace
 
 struct FacetSearch::Impl {
   FacetSource source;
@@ -49,7 +43,11 @@ NearestFacet FacetSearch::nearest(const Eigen::Vector3d& point) const {
   }
   const auto [found, facet] = impl_->tree.closest_point_and_primitive(to_cgal(point));
   const Eigen::Vector3d on_facet(found.x(), found.y(), found.z());
-  return {facet, on_facet, weights_at(impl_->source, facet, on_facet)};
+  const FacetSource& source = impl_->source;
+  return {facet,
+          on_facet,
+          barycentric_weights(
+              source.corner(facet, 0), source.corner(facet, 1), source.corner(facet, 2), on_facet)};
 }
 
 }  // namespace facet_mapping

@@ -67,14 +67,29 @@ void RefinedLayer::add_pieces(const TriangleMesh& map, const std::vector<std::ui
     pieces.back()->may_change |= in_part[f] != 0;
   }
   const FacetSearch search(map.vertices, map.triangles);
-  std::vector<std::uint32_t> parents(refined_.triangles.size());
+  std::vector<Piece*> parents(refined_.triangles.size());
   tbb::parallel_for(std::size_t{0}, parents.size(), [&](std::size_t f) {
-    parents[f] = search.nearest(middle(refined_.start_points, refined_.triangles[f])).facet;
+    parents[f] = pieces[search.nearest(middle(refined_.start_points, refined_.triangles[f])).facet];
   });
   for (std::size_t f = 0; f < parents.size(); ++f) {
     // Facets may join a part of certain classes while it is refined.
-    pieces[parents[f]]->may_change |= has_moved(refined_, refined_.triangles[f]);
-    ++pieces[parents[f]]->count;
+    parents[f]->may_change |= has_moved(refined_, refined_.triangles[f]);
+    ++parents[f]->count;
+  }
+  sort_facets(pieces, parents);
+}
+
+void RefinedLayer::sort_facets(const std::vector<Piece*>& pieces,
+                               const std::vector<Piece*>& parents) {
+  std::uint32_t next = 0;
+  for (Piece* piece : pieces) {
+    piece->first = next;
+    next += piece->count;
+  }
+  facets_.resize(next);
+  std::unordered_map<const Piece*, std::uint32_t> filled;
+  for (std::uint32_t f = 0; f < parents.size(); ++f) {
+    facets_[parents[f]->first + filled[parents[f]]++] = f;
   }
 }
 
@@ -94,33 +109,44 @@ bool RefinedLayer::is_made_from(const TriangleMesh& map,
          });
 }
 
-std::optional<std::uint32_t> RefinedLayer::pieces(const Triangle& matched) const {
+const RefinedLayer::Piece* RefinedLayer::piece(const Triangle& matched) const {
   const auto found = pieces_.find(first_least(matched));
-  if (found == pieces_.end() || !found->second.may_change) {
-    return std::nullopt;
-  }
-  return std::max<std::uint32_t>(1, found->second.count);
+  return found != pieces_.end() && found->second.may_change ? &found->second : nullptr;
 }
 
-Eigen::Vector3d RefinedLayer::moved(const Eigen::Vector3d& point) const {
+Eigen::Vector3d RefinedLayer::moved(const Eigen::Vector3d& point, const Piece& piece) const {
   const std::uint32_t vertex = start_lookup_.find(point);
   if (vertex != PointLookup::kNone) {
     return refined_.vertices[vertex];
   }
-  const NearestFacet nearest = start_surface_.nearest(point);
+  const NearestFacet nearest = refined_facet(point, piece);
   const Triangle& t = refined_.triangles[nearest.facet];
   return point + at_weights(refined_.vertices, t, nearest.weights) - nearest.point;
 }
 
-std::uint32_t RefinedLayer::refined_facet(const Eigen::Vector3d& point) const {
-  return start_surface_.nearest(point).facet;
+NearestFacet RefinedLayer::refined_facet(const Eigen::Vector3d& point, const Piece& piece) const {
+  constexpr double kRounding = 1e-9;
+  constexpr double kMostOffPlane = 1e-3;  // in lengths of the facet
+  const std::vector<Eigen::Vector3d>& x = refined_.start_points;
+  for (std::uint32_t k = 0; k < piece.count; ++k) {  // mostly it is one of these few
+    const std::uint32_t facet = facets_[piece.first + k];
+    const Triangle& t = refined_.triangles[facet];
+    const Eigen::Vector3d weights = barycentric_weights(x[t[0]], x[t[1]], x[t[2]], point);
+    const Eigen::Vector3d there = at_weights(x, t, weights);
+    const double off_plane = (there - point).squaredNorm();
+    const double size = kMostOffPlane * kMostOffPlane * (x[t[1]] - x[t[0]]).squaredNorm();
+    if (weights.minCoeff() >= -kRounding && off_plane <= size) {
+      return {facet, there, weights};
+    }
+  }
+  return start_surface_.nearest(point);
 }
 
 std::size_t RefinedLayer::bytes() const {
   constexpr std::size_t kNode = sizeof(Triangle) + sizeof(Piece) + 2 * sizeof(void*);
   constexpr std::size_t kTreeNode = 64;
-  return bytes_of(map_points_) + bytes_of(refined_) + map_lookup_.bytes() + start_lookup_.bytes() +
-         pieces_.size() * kNode + pieces_.bucket_count() * sizeof(void*) +
+  return bytes_of(map_points_) + bytes_of(refined_) + bytes_of(facets_) + map_lookup_.bytes() +
+         start_lookup_.bytes() + pieces_.size() * kNode + pieces_.bucket_count() * sizeof(void*) +
          refined_.triangles.size() * kTreeNode;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -38,14 +37,20 @@ class RefinedLayer {
   /// Is this the state of the map from which the layer was made? `matched`: match(map.vertices).
   bool is_made_from(const TriangleMesh& map, const std::vector<std::uint32_t>& matched) const;
 
-  /// Into how many facets refinement has cut a facet that could change, at least 1; nothing if
-  /// the facet could not or did not exist. Corners as matched.
-  std::optional<std::uint32_t> pieces(const Triangle& matched) const;
+  /// What became of a facet of the map.
+  struct Piece {
+    std::uint32_t first = 0;  ///< of its refined facets, in piece order
+    std::uint32_t count = 0;
+    bool may_change = false;
+  };
 
-  /// Where a point on this layer's map has moved.
-  Eigen::Vector3d moved(const Eigen::Vector3d& point) const;
-  /// The refined facet at a point on this layer's map.
-  std::uint32_t refined_facet(const Eigen::Vector3d& point) const;
+  /// Null if the facet could not change or did not exist. Corners as matched.
+  const Piece* piece(const Triangle& matched) const;
+
+  /// Where a point on the map's facet has moved.
+  Eigen::Vector3d moved(const Eigen::Vector3d& point, const Piece& piece) const;
+  /// The refined facet at a point on the map's facet.
+  NearestFacet refined_facet(const Eigen::Vector3d& point, const Piece& piece) const;
 
   std::size_t bytes() const;  ///< of memory held, about
 
@@ -53,12 +58,9 @@ class RefinedLayer {
   struct Hash {
     std::size_t operator()(const Triangle& t) const;
   };
-  struct Piece {
-    std::uint32_t count = 0;
-    bool may_change = false;
-  };
-
   void add_pieces(const TriangleMesh& map, const std::vector<std::uint8_t>& in_part);
+
+  void sort_facets(const std::vector<Piece*>& pieces, const std::vector<Piece*>& parents);
 
   std::vector<Eigen::Vector3d> map_points_;
   TriangleMesh refined_;
@@ -66,6 +68,7 @@ class RefinedLayer {
   PointLookup start_lookup_;
   FacetSearch start_surface_;
   std::unordered_map<Triangle, Piece, Hash> pieces_;  ///< corners as first_least() has them
+  std::vector<std::uint32_t> facets_;                 ///< refined ones, in piece order
 };
 
 }  // namespace facet_mapping

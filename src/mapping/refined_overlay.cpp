@@ -15,44 +15,57 @@ namespace {
 
 using Layers = std::vector<const RefinedLayer*>;  // the newest first
 
-/// Which layer gives each facet its shape, and in how many pieces.
-struct Owners {
-  std::vector<const RefinedLayer*> layer;  ///< null: none
-  std::vector<double> pieces;              ///< 0 where no layer has a say
+/// Who gives a facet its shape.
+struct Owner {
+  const RefinedLayer* layer = nullptr;  ///< null: the map itself
+  const RefinedLayer::Piece* piece = nullptr;
 };
 
-Owners find_owners(const TriangleMesh& map, const Layers& layers) {
-  Owners owners{std::vector<const RefinedLayer*>(map.triangles.size(), nullptr),
-                std::vector<double>(map.triangles.size(), 0.0)};
+std::vector<Owner> find_owners(const TriangleMesh& map, const Layers& layers) {
+  std::vector<Owner> owners(map.triangles.size());
   for (const RefinedLayer* layer : layers) {
     const std::vector<std::uint32_t> matched = layer->match(map.vertices);
-    for (std::size_t f = 0; f < map.triangles.size(); ++f) {
-      const auto pieces = owners.layer[f] != nullptr
-                              ? std::nullopt
-                              : layer->pieces(corners(map.triangles[f], matched));
-      if (pieces) {
-        owners.layer[f] = layer;
-        owners.pieces[f] = *pieces;
+    tbb::parallel_for(std::size_t{0}, owners.size(), [&](std::size_t f) {
+      const auto* piece =
+          owners[f].layer != nullptr ? nullptr : layer->piece(corners(map.triangles[f], matched));
+      if (piece != nullptr) {
+        owners[f] = {layer, piece};
       }
-    }
+    });
   }
   return owners;
 }
 
+/// As fine as refinement left it. `owners`, one per facet, are carried to the new facets.
+TriangleMesh split_as_refined(const TriangleMesh& map, std::vector<Owner>* owners) {
+  constexpr double kMostPieces = 1.9;  // two are worth a bisection, three not a second one
+  std::vector<double> pieces(owners->size(), 0.0);
+  for (std::size_t f = 0; f < pieces.size(); ++f) {
+    pieces[f] = (*owners)[f].piece != nullptr ? (*owners)[f].piece->count : 0.0;
+  }
+  std::vector<std::uint32_t> parents;
+  TriangleMesh mesh = subdivide(map, pieces, kMostPieces, &parents);
+  mesh.start_points = mesh.vertices;
+  std::vector<Owner> carried(parents.size());
+  for (std::size_t f = 0; f < carried.size(); ++f) {
+    carried[f] = (*owners)[parents[f]];
+  }
+  *owners = std::move(carried);
+  return mesh;
+}
+
 /// Vertices move with the first layer that has a facet of theirs.
-void move_vertices(const std::vector<const RefinedLayer*>& owner,
-                   const Layers& layers,
-                   TriangleMesh* mesh) {
+void move_vertices(const std::vector<Owner>& owners, const Layers& layers, TriangleMesh* mesh) {
   for (const RefinedLayer* layer : layers) {
-    std::vector<std::uint8_t> is_owned(mesh->vertices.size(), 0);
+    std::vector<const RefinedLayer::Piece*> pieces(mesh->vertices.size(), nullptr);
     for (std::size_t f = 0; f < mesh->triangles.size(); ++f) {
       for (const std::uint32_t v : mesh->triangles[f]) {
-        is_owned[v] |= owner[f] == layer ? 1 : 0;
+        pieces[v] = owners[f].layer == layer ? owners[f].piece : pieces[v];
       }
     }
     tbb::parallel_for(std::size_t{0}, mesh->vertices.size(), [&](std::size_t v) {
-      if (is_owned[v] != 0 && mesh->vertices[v] == mesh->start_points[v]) {
-        mesh->vertices[v] = layer->moved(mesh->start_points[v]);
+      if (pieces[v] != nullptr && mesh->vertices[v] == mesh->start_points[v]) {
+        mesh->vertices[v] = layer->moved(mesh->start_points[v], *pieces[v]);
       }
     });
   }
@@ -76,9 +89,7 @@ void take(const std::vector<Value>& from, std::size_t k, Value* value) {
   }
 }
 
-void take_attributes(const std::vector<const RefinedLayer*>& owner,
-                     const Layers& layers,
-                     TriangleMesh* mesh) {
+void take_attributes(const std::vector<Owner>& owners, const Layers& layers, TriangleMesh* mesh) {
   const std::size_t facets = mesh->triangles.size();
   for (const RefinedLayer* layer : layers) {
     make_room(layer->refined().labels, facets, kUnlabelled, &mesh->labels);
@@ -86,13 +97,14 @@ void take_attributes(const std::vector<const RefinedLayer*>& owner,
     make_room(layer->refined().views, facets, std::uint16_t{1}, &mesh->views);
   }
   tbb::parallel_for(std::size_t{0}, facets, [&](std::size_t f) {
-    if (owner[f] == nullptr) {
+    const auto [layer, piece] = owners[f];
+    if (layer == nullptr) {
       return;
     }
     const Triangle& t = mesh->triangles[f];
-    const TriangleMesh& from = owner[f]->refined();
+    const TriangleMesh& from = layer->refined();
     const std::vector<Eigen::Vector3d>& x = mesh->start_points;
-    const std::uint32_t k = owner[f]->refined_facet((x[t[0]] + x[t[1]] + x[t[2]]) / 3.0);
+    const std::uint32_t k = layer->refined_facet((x[t[0]] + x[t[1]] + x[t[2]]) / 3.0, *piece).facet;
     take(from.labels, k, &mesh->labels[f]);
     take(from.confidence, k, &mesh->confidence[f]);
     take(from.views, k, &mesh->views[f]);
@@ -100,21 +112,14 @@ void take_attributes(const std::vector<const RefinedLayer*>& owner,
 }
 
 TriangleMesh lay_over(const TriangleMesh& map, const Layers& layers) {
-  constexpr double kMostPieces = 1.5;  // midway between one and the two of a bisection
   const RefinedLayer& newest = *layers.front();
   if (layers.size() == 1 && newest.is_made_from(map, newest.match(map.vertices))) {
     return newest.refined();
   }
-  const Owners owners = find_owners(map, layers);
-  std::vector<std::uint32_t> parents;
-  TriangleMesh merged = subdivide(map, owners.pieces, kMostPieces, &parents);
-  merged.start_points = merged.vertices;
-  std::vector<const RefinedLayer*> owner(parents.size());
-  for (std::size_t f = 0; f < owner.size(); ++f) {
-    owner[f] = owners.layer[parents[f]];
-  }
-  move_vertices(owner, layers, &merged);
-  take_attributes(owner, layers, &merged);
+  std::vector<Owner> owners = find_owners(map, layers);
+  TriangleMesh merged = split_as_refined(map, &owners);
+  move_vertices(owners, layers, &merged);
+  take_attributes(owners, layers, &merged);
   return merged;
 }
 
@@ -135,9 +140,9 @@ void RefinedOverlay::add(const TriangleMesh& map, TriangleMesh refined, const Me
   auto layer = std::make_unique<RefinedLayer>(map, std::move(refined), in_part);
   if (layer_ && !part.is_everything()) {
     const Layers both{layer.get(), layer_.get()};
-    const Owners owners = find_owners(map, both);
+    const std::vector<Owner> owners = find_owners(map, both);
     for (std::size_t f = 0; f < in_part.size(); ++f) {
-      in_part[f] = owners.layer[f] != nullptr ? 1 : 0;
+      in_part[f] = owners[f].layer != nullptr ? 1 : 0;
     }
     layer = std::make_unique<RefinedLayer>(map, lay_over(map, both), in_part);
   }

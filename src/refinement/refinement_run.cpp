@@ -40,12 +40,16 @@ RefinementRun::RefinementRun(const TriangleMesh& mesh,
   }
 }
 
-RefinementResult RefinementRun::run() {
-  result_.facets_before = start_.triangles.size();
+void RefinementRun::begin() {
   if (current_.labels.empty() && has_segmentation()) {
     relabel(&current_);
   }
   finest_.choose_pairs(current_, finest_.render(current_));
+}
+
+RefinementResult RefinementRun::run() {
+  result_.facets_before = start_.triangles.size();
+  begin();
   const Measured before = measure(current_, 0);
   result_.before = before.terms;
   TriangleMesh best = current_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/refine_services.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -169,11 +170,6 @@ RefineServices::Task RefineServices::prepare(const Refine::Request& request) con
                                 " MiB, more than memory_budget: keep fewer keyframes "
                                 "(max_keyframes, keyframe_translation_m) or use smaller images");
   }
-  if (task.dry_run) {  // no iteration: only the energies are measured
-    task.config.levels = 1;
-    task.config.iterations = 0;
-    task.config.relabel = false;
-  }
   return task;
 }
 
@@ -208,30 +204,43 @@ RefinementResult RefineServices::run(const Task& task, std::string* why_stopped)
       sources_.refined->labels(),
       task.config,
       [&](const RefinementProgress& p) { return report_progress(task, p, why_stopped); });
-  if (!task.dry_run && !ros::isShuttingDown()) {
+  if (!ros::isShuttingDown()) {
     sources_.meshes->take(task.start, result.mesh, task.config.part);
   }
   return result;
 }
 
+std::string RefineServices::estimate(const std::shared_ptr<Task>& task,
+                                     Refine::Response* response) {
+  const auto result = std::make_shared<RefinementEstimate>();
+  job_.run("~refine (dry run)", [this, task, result] {
+    *result = estimate_refinement(
+        task->start.mesh->mesh, task->views, sources_.refined->labels(), task->config);
+  });
+  response->before = to_message(result->energy);
+  response->after = response->before;
+  response->facets_before = task->start.mesh->mesh.triangles.size();
+  response->facets_after = result->facets;
+  response->seconds =
+      task->time_budget_s > 0.0 ? std::min(result->seconds, task->time_budget_s) : result->seconds;
+  return "the request can be served (nothing was changed): " + std::to_string(result->views) +
+         " keyframes, about " + number_text(task->mib) + " MiB, " + number_text(response->seconds) +
+         " s, " + std::to_string(result->facets) + " facets";
+}
+
 bool RefineServices::refine(Refine::Request& request, Refine::Response& response) {
   response.status = answer([&] {
     const auto task = std::make_shared<Task>(prepare(request));
-    const auto result = std::make_shared<RefinementResult>();
-    const auto why_stopped = std::make_shared<std::string>();
     response.views = static_cast<std::uint32_t>(task->views.size());
     response.peak_memory = task->mib;
+    if (task->dry_run) {
+      return estimate(task, &response);
+    }
+    const auto result = std::make_shared<RefinementResult>();
+    const auto why_stopped = std::make_shared<std::string>();
     job_.run("~refine", [=] { *result = run(*task, why_stopped.get()); });
     fill_response(*result, &response);
     response.seconds = seconds_since(task->begin);
-    if (task->dry_run) {
-      response.after = response.before;
-      response.facets_after = response.facets_before;
-      response.relabelled = 0;
-      return "the request can be served (nothing was changed): " +
-             std::to_string(task->views.size()) + " keyframes, about " + number_text(task->mib) +
-             " MiB";
-    }
     if (request.return_mesh != 0) {
       response.mesh = sources_.refined->detached_message(result->mesh, task->start.mesh->stamp);
     }

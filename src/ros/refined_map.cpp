@@ -61,7 +61,18 @@ void RefinedMap::on_map_update() {
   jobs_.post([this] { merge_again(); });  // a full queue means that the newest is still to come
 }
 
+bool RefinedMap::rest() {
+  std::unique_lock<std::mutex> lock(rest_mutex_);
+  wake_.wait_until(lock, next_merge_, [this] { return stopping_; });
+  return !stopping_;
+}
+
 void RefinedMap::merge_again() {
+  constexpr int kRest = 3;  // of the time that a merge takes
+  if (!rest()) {
+    return;
+  }
+  const auto begin = std::chrono::steady_clock::now();
   {
     const Lock lock(mutex_);
     if (overlay_.empty()) {
@@ -70,6 +81,17 @@ void RefinedMap::merge_again() {
     publish_merged_locked();
   }
   on_publish_();
+  const auto end = std::chrono::steady_clock::now();
+  next_merge_ = end + kRest * (end - begin);
+}
+
+void RefinedMap::stop() {
+  {
+    const Lock lock(rest_mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  jobs_.stop();
 }
 
 void RefinedMap::publish_merged_locked() {

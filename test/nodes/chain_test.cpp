@@ -96,6 +96,8 @@ TEST_F(ChainTest, DryRunChangesNothing) {
   EXPECT_EQ(response.status.code, Status::OK) << response.status.message;
   EXPECT_EQ(response.views, kFrames);
   EXPECT_GT(response.peak_memory, 0.0);
+  EXPECT_GT(response.seconds, 0.0);
+  EXPECT_GE(response.facets_after, response.facets_before);
   EXPECT_GT(response.before.photometric, 0.0);
   EXPECT_EQ(call<GetMesh>("refiner/get_mesh").status.code, Status::NOT_READY);
 }

@@ -14,6 +14,13 @@
 
 namespace facet_mapping {
 
+/// Barycentric weights, by areas, of where `point` falls on the plane of (a, b, c): sum 1, negative
+/// outside. A facet without area is all its first corner.
+Eigen::Vector3d barycentric_weights(const Eigen::Vector3d& a,
+                                    const Eigen::Vector3d& b,
+                                    const Eigen::Vector3d& c,
+                                    const Eigen::Vector3d& point);
+
 struct NearestFacet {
   std::uint32_t facet = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< of the facet

@@ -91,4 +91,20 @@ RefinementResult refine(const TriangleMesh& mesh,
                         const RefinementConfig& config,
                         const ProgressCallback& progress = {});
 
+/// What a refinement with these arguments would cost on this machine as busy as it is now.
+struct RefinementEstimate {
+  EnergyTerms energy;       ///< of the start mesh on the finest level's images
+  std::size_t facets = 0;   ///< of the result, about
+  std::size_t views = 0;    ///< that see the part
+  double measured_s = 0.0;  ///< wall time that the estimate took
+  double seconds = 0.0;     ///< wall time of the refinement, about
+};
+
+/// Does what a level begins with, measures how long that takes, and changes nothing. Throws as
+/// refine() does.
+RefinementEstimate estimate_refinement(const TriangleMesh& mesh,
+                                       const std::vector<LabeledView>& views,
+                                       const LabelSet& labels,
+                                       const RefinementConfig& config);
+
 }  // namespace facet_mapping

@@ -53,6 +53,8 @@ class RefineServices {
   RefineStart start_mesh(const Refine::Request& request) const;
   MeshStatePtr mesh_of_request(const LabeledMesh& message) const;
   std::vector<LabeledView> require_views(std::size_t least, const std::string& problem) const;
+  /// Answers a dry run.
+  std::string estimate(const std::shared_ptr<Task>& task, Refine::Response* response);
   RefinementResult run(const Task& task, std::string* why_stopped);
   bool report_progress(const Task& task,
                        const RefinementProgress& progress,

@@ -4,6 +4,8 @@
 // The refiner's mesh: the mapper's newest mesh with what was refined laid over it.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <mutex>
 
@@ -22,7 +24,7 @@ struct RefineStart {
 };
 
 /// Thread-safe. A mesh is published after each result and, once something was refined, after each
-/// update of the map.
+/// update of the map, though never for more than a quarter of the time.
 class RefinedMap {
  public:
   /// `map`: the mapper's newest mesh, or null. The arguments must outlive this. `on_publish` is
@@ -31,6 +33,9 @@ class RefinedMap {
              MeshPublisher* refined,
              NodeDiagnostics* diagnostics,
              std::function<void()> on_publish);
+  ~RefinedMap() { stop(); }
+  RefinedMap(const RefinedMap&) = delete;
+  RefinedMap& operator=(const RefinedMap&) = delete;
 
   RefineStart from_map() const;
   RefineStart from_refined() const;
@@ -43,9 +48,11 @@ class RefinedMap {
   void on_map_update();
 
   void clear(const ros::Time& stamp);
-  void stop() { jobs_.stop(); }
+  void stop();
 
  private:
+  /// Waits until it is time for the next merge; false if the end comes first.
+  bool rest();
   void merge_again();
   void publish_locked(TriangleMesh mesh, const ros::Time& stamp);
   void publish_merged_locked();
@@ -58,7 +65,11 @@ class RefinedMap {
   RefinedOverlay overlay_;
   VertexIds ids_;
   MeshStatePtr base_;  ///< the mapper's mesh of the present refined one; null: none or unrelated
-  JobQueue jobs_;      // last: its thread uses all the others
+  std::mutex rest_mutex_;
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::chrono::steady_clock::time_point next_merge_;
+  JobQueue jobs_;  // last: its thread uses all the others
 };
 
 }  // namespace facet_mapping
