@@ -122,9 +122,7 @@ DatasetFrame make_frame(const Scan& scan,
   frame.view = read_view(path, problems);
   frame.left_image = find_image(scan.folder, name);
   find_view_files(others, name, frame);
-  if (frame.view.camera.fx > 0.0) {
-    set_size_of_image(path, frame, problems);
-  }
+  set_size_of_image(path, frame, problems);
   return frame;
 }
 

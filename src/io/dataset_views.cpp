@@ -72,8 +72,10 @@ PinholeCamera camera_from_matrix(const Eigen::Matrix3d& intrinsics,
   } else if (!(std::abs(intrinsics(0, 1)) <= kMostSkew)) {
     problems.add(source + ": the camera matrix has a skew of " + std::to_string(intrinsics(0, 1)) +
                  " pixels; only cameras without skew can be used");
+  } else {
+    return camera;
   }
-  return camera;
+  return {};
 }
 
 void set_size_of_image(const std::string& source, DatasetFrame& frame, Problems& problems) {
@@ -82,7 +84,8 @@ void set_size_of_image(const std::string& source, DatasetFrame& frame, Problems&
     PinholeCamera& camera = frame.view.camera;
     camera.width = size.width;
     camera.height = size.height;
-    if (is_off_center(camera.cx, size.width) && is_off_center(camera.cy, size.height)) {
+    const bool is_known = camera.fx > 0.0;  // else a problem of its own
+    if (is_known && is_off_center(camera.cx, size.width) && is_off_center(camera.cy, size.height)) {
       std::ostringstream sentence;
       sentence << source << ": the principal point " << camera.cx << " " << camera.cy
                << " lies far from the centre of the image, which has " << size.width << "x"

@@ -23,7 +23,7 @@ void find_view_files(const FrameFolders& folders, const std::string& name, Datas
 double read_depth_scale(const FrameFolders& folders, double otherwise, Problems& problems);
 
 /// A camera without size from its matrix. Problems: no focal length, a last row other than 0 0 1,
-/// more skew than the digits of a text file make.
+/// more skew than the digits of a text file make (the camera stays empty).
 PinholeCamera camera_from_matrix(const Eigen::Matrix3d& intrinsics,
                                  const std::string& source,
                                  Problems& problems);

@@ -72,11 +72,11 @@ inline void make_strecha(const std::string& folder, const std::vector<View>& vie
   write_text(folder + "/cameras.json", text.str() + "]}");
 }
 
-/// The model lies in folder/`model`, images in folder/images; the last image comes first in the
-/// table, the first image has no 2D points.
-inline void make_colmap(const std::string& folder,
-                        const std::vector<View>& views,
-                        const std::string& model = "sparse/0") {
+/// cameras.txt and images.txt of views with these image names. The last image comes first in the
+/// tables, the first one has no 2D points.
+inline void write_colmap_model(const std::string& folder,
+                               const std::vector<View>& views,
+                               const std::vector<std::string>& names) {
   std::ostringstream cameras = exact_stream();
   std::ostringstream images = exact_stream();
   cameras << "# Camera list with one line of data per camera:\n# Number of cameras: 3\n";
@@ -86,17 +86,27 @@ inline void make_colmap(const std::string& folder,
     const PinholeCamera& camera = views[k].camera;
     const Eigen::Isometry3d pose = views[k].cam_from_world();
     const Eigen::Quaterniond turn(pose.linear());
-    const std::string name = "left/" + padded(static_cast<int>(k), 4) + ".png";
-    write_image_of(camera, folder + "/images/" + name);
     cameras << 10 + k << " PINHOLE " << camera.width << " " << camera.height << " " << camera.fx
             << " " << camera.fy << " " << camera.cx + 0.5 << " " << camera.cy + 0.5 << "\n";
     images << 7 * k + 1 << " " << turn.w() << " " << turn.x() << " " << turn.y() << " " << turn.z()
-           << " " << pose.translation().transpose().format(Eigen::IOFormat(17)) << " " << 10 + k
-           << " " << name << "\n"
+           << " " << pose.translation().x() << " " << pose.translation().y() << " "
+           << pose.translation().z() << " " << 10 + k << " " << names[k] << "\n"
            << (k == 0 ? "" : "2362.39 248.498 58396 1784.7 268.254 -1") << "\n";
   }
-  write_text(folder + "/" + model + "/cameras.txt", cameras.str());
-  write_text(folder + "/" + model + "/images.txt", images.str());
+  write_text(folder + "/cameras.txt", cameras.str());
+  write_text(folder + "/images.txt", images.str());
+}
+
+/// The model lies in folder/`model`, images in folder/images/left.
+inline void make_colmap(const std::string& folder,
+                        const std::vector<View>& views,
+                        const std::string& model = "sparse/0") {
+  std::vector<std::string> names;
+  for (const View& view : views) {
+    names.push_back("left/" + padded(static_cast<int>(names.size()), 4) + ".png");
+    write_image_of(view.camera, folder + "/images/" + names.back());
+  }
+  write_colmap_model(folder + "/" + model, views, names);
 }
 
 inline void make_mvsnet(const std::string& folder, const std::vector<View>& views) {
