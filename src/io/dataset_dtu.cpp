@@ -117,7 +117,7 @@ DatasetFrame make_frame(const Scan& scan,
                         const FrameFolders& others,
                         Problems& problems) {
   const std::string name = kPrefix + position + scan.light;
-  const std::string path = calibration + "/pos_" + position + ".txt";
+  const std::string path = (fs::path(calibration) / ("pos_" + position + ".txt")).string();
   DatasetFrame frame;
   frame.view = read_view(path, problems);
   frame.left_image = find_image(scan.folder, name);
@@ -131,8 +131,8 @@ void check_complete(const Scan& scan, Problems& problems) {
   for (const char* light : kLights) {
     for (const std::string& position : positions(image_names(scan.folder), light)) {
       if (scan.positions.count(position) == 0) {
-        problems.add_missing(scan.folder + "/" + kPrefix + position + scan.light +
-                             ".png (all views are taken under the same light)");
+        const fs::path path = fs::path(scan.folder) / (kPrefix + position + scan.light);
+        problems.add_missing(path.string() + ".png (all views are taken under the same light)");
       }
     }
   }
