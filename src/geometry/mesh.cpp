@@ -10,24 +10,31 @@
 namespace facet_mapping {
 namespace {
 
-void check_attribute(std::size_t size, std::size_t facets, const char* name) {
-  if (size != 0 && size != facets) {
+void check_attribute(std::size_t size, std::size_t owners, const char* name, const char* owner) {
+  if (size != 0 && size != owners) {
     throw std::invalid_argument("mesh: " + std::to_string(size) + " " + name + " for " +
-                                std::to_string(facets) + " facets; give one per facet or none");
+                                std::to_string(owners) + " " + owner + "; give one each or none");
+  }
+}
+
+void check_finite(const std::vector<Eigen::Vector3d>& points, const char* name) {
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!points[v].allFinite()) {
+      throw std::invalid_argument("mesh: " + std::string(name) + " " + std::to_string(v) +
+                                  " is not finite");
+    }
   }
 }
 
 }  // namespace
 
 void validate(const TriangleMesh& mesh) {
-  check_attribute(mesh.labels.size(), mesh.triangles.size(), "labels");
-  check_attribute(mesh.confidence.size(), mesh.triangles.size(), "confidences");
-  check_attribute(mesh.views.size(), mesh.triangles.size(), "view counts");
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!mesh.vertices[v].allFinite()) {
-      throw std::invalid_argument("mesh: vertex " + std::to_string(v) + " is not finite");
-    }
-  }
+  check_attribute(mesh.labels.size(), mesh.triangles.size(), "labels", "facets");
+  check_attribute(mesh.confidence.size(), mesh.triangles.size(), "confidences", "facets");
+  check_attribute(mesh.views.size(), mesh.triangles.size(), "view counts", "facets");
+  check_attribute(mesh.start_points.size(), mesh.vertices.size(), "start points", "vertices");
+  check_finite(mesh.vertices, "vertex");
+  check_finite(mesh.start_points, "start point");
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (const std::uint32_t v : mesh.triangles[f]) {
       if (v >= mesh.vertices.size()) {
@@ -41,7 +48,7 @@ void validate(const TriangleMesh& mesh) {
 
 std::size_t bytes_of(const TriangleMesh& mesh) {
   return bytes_of(mesh.vertices) + bytes_of(mesh.triangles) + bytes_of(mesh.labels) +
-         bytes_of(mesh.confidence) + bytes_of(mesh.views);
+         bytes_of(mesh.confidence) + bytes_of(mesh.views) + bytes_of(mesh.start_points);
 }
 
 Eigen::Vector3d facet_cross(const TriangleMesh& mesh, std::size_t facet) {
@@ -85,6 +92,9 @@ TriangleMesh select_facets(const TriangleMesh& mesh, const std::vector<bool>& ke
       if (new_index[v] == kUnused) {
         new_index[v] = static_cast<std::uint32_t>(selected.vertices.size());
         selected.vertices.push_back(mesh.vertices[v]);
+        if (!mesh.start_points.empty()) {
+          selected.start_points.push_back(mesh.start_points[v]);
+        }
       }
       v = new_index[v];
     }

@@ -17,17 +17,27 @@ namespace fs = std::filesystem;
 struct Layout {
   const char* marker;  ///< the file or folder that tells it
   const char* name;
+  bool (*is_layout)(const std::string& folder);  ///< null: the marker exists
   Dataset (*read)(const std::string& folder, Problems& problems);
 };
 
-constexpr std::array<Layout, 6> kLayouts{{
-    {"cameras.json", "Strecha", read_strecha},
-    {"left", "left/right images", read_plain_layout},
-    {"image_2", "KITTI odometry", read_kitti_odometry},
-    {"image_0", "KITTI odometry, grey", read_kitti_odometry},
-    {"image_02/data", "KITTI raw drive", read_kitti_raw},
-    {"image_00/data", "KITTI raw drive, grey", read_kitti_raw},
+constexpr std::array<Layout, 9> kLayouts{{
+    {"cameras.json", "Strecha", nullptr, read_strecha},
+    {"left", "left/right images", nullptr, read_plain_layout},
+    {"image_2", "KITTI odometry", nullptr, read_kitti_odometry},
+    {"image_0", "KITTI odometry, grey", nullptr, read_kitti_odometry},
+    {"image_02/data", "KITTI raw drive", nullptr, read_kitti_raw},
+    {"image_00/data", "KITTI raw drive, grey", nullptr, read_kitti_raw},
+    {"[sparse/[0/]]cameras.txt", "COLMAP text model", is_colmap, read_colmap},
+    {"cams/00000000_cam.txt", "MVSNet, DTU", is_mvsnet, read_mvsnet},
+    {"[images/]rect_001_max.png or rect_001_3_r5000.png", "DTU", is_dtu, read_dtu},
 }};
+
+bool has_layout(const std::string& folder, const Layout& layout) {
+  std::error_code error;
+  return layout.is_layout != nullptr ? layout.is_layout(folder)
+                                     : fs::exists(fs::path(folder) / layout.marker, error);
+}
 
 const Layout& find_layout(const std::string& folder) {
   std::error_code error;
@@ -36,7 +46,7 @@ const Layout& find_layout(const std::string& folder) {
   }
   std::string markers;
   for (const Layout& layout : kLayouts) {
-    if (fs::exists(fs::path(folder) / layout.marker, error)) {
+    if (has_layout(folder, layout)) {
       return layout;
     }
     markers += std::string(markers.empty() ? "" : ", ") + layout.marker + " (" + layout.name + ")";
@@ -56,6 +66,14 @@ Dataset read_dataset(const std::string& folder) {
   }
   problems.throw_if_any(folder);
   return dataset;
+}
+
+std::string dataset_layouts_help() {
+  std::string text = "Dataset folders, told apart by what they hold:";
+  for (const Layout& layout : kLayouts) {
+    text += std::string("\n  ") + layout.name + ": " + layout.marker;
+  }
+  return text;
 }
 
 std::size_t end_frame(const Dataset& dataset, std::size_t first, std::size_t last) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <set>
 
 namespace facet_mapping {
 namespace {
@@ -17,17 +16,6 @@ constexpr std::array<const char*, 4> kImageExtensions{".png", ".jpg", ".jpeg", "
 bool is_image(const fs::path& path) {
   return std::find(kImageExtensions.begin(), kImageExtensions.end(), path.extension().string()) !=
          kImageExtensions.end();
-}
-
-std::set<std::string> image_names(const std::string& folder) {
-  std::set<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (is_image(entry.path())) {
-      names.insert(entry.path().stem().string());
-    }
-  }
-  return names;
 }
 
 // True if the names are numbers with the same number of digits: KITTI's way.
@@ -65,6 +53,17 @@ void find_frame(const FrameFolders& folders,
 }
 
 }  // namespace
+
+std::set<std::string> image_names(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (is_image(entry.path())) {
+      names.insert(entry.path().stem().string());
+    }
+  }
+  return names;
+}
 
 std::vector<std::string> frame_names(const std::string& image_folder,
                                      std::size_t count,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "facet_mapping/io/dataset.h"
 
 namespace facet_mapping {
+
+/// Names without extension of the images in a folder; empty if there is no such folder.
+std::set<std::string> image_names(const std::string& folder);
 
 /// Names without extension of the images of `count` frames. Missing numbers and images without a
 /// frame are added to the problems; `counted_by` names the file that says how many frames there

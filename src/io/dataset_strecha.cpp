@@ -5,8 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "dataset_files.h"
 #include "dataset_layouts.h"
+#include "dataset_views.h"
 #include "text_tables.h"
 #include <nlohmann/json.hpp>
 
@@ -52,15 +52,13 @@ View read_view(const json& entry) {
 
 void read_frame(const json& entry,
                 const std::string& folder,
+                const FrameFolders& folders,
                 DatasetFrame& frame,
                 Problems& problems) {
   frame.view = read_view(entry);
   const std::string image = entry.at("image").get<std::string>();
-  const std::string name = std::filesystem::path(image).stem().string();
   frame.left_image = folder + "/" + image;
-  frame.labels = find_image(folder + "/segmentation", name);
-  frame.gt_labels = find_image(folder + "/labels_gt", name);
-  frame.gt_depth = find_image(folder + "/depth_gt", name);
+  find_view_files(folders, std::filesystem::path(image).stem().string(), frame);
   std::error_code error;
   if (!std::filesystem::is_regular_file(frame.left_image, error)) {
     problems.add_missing(frame.left_image);
@@ -71,11 +69,12 @@ void read_frames(const json& views,
                  const std::string& folder,
                  Dataset& dataset,
                  Problems& problems) {
+  const FrameFolders folders = view_folders(folder);
   for (const json& entry : views) {
     DatasetFrame frame;
     frame.stamp = static_cast<double>(dataset.frames.size());
     try {
-      read_frame(entry, folder, frame, problems);
+      read_frame(entry, folder, folders, frame, problems);
     } catch (const std::exception& error) {
       problems.add(folder + "/cameras.json: view " + std::to_string(dataset.frames.size()) + ": " +
                    error.what());

@@ -154,13 +154,15 @@ void MeshEditor::flip(std::uint32_t from, std::uint32_t to, const EdgeSides& edg
 
 TriangleMesh MeshEditor::take() && {
   std::vector<std::uint32_t> index(mesh_.vertices.size());
+  std::vector<bool> stays(merged_.size());
   std::uint32_t count = 0;
   for (std::size_t v = 0; v < index.size(); ++v) {
     index[v] = count;
-    mesh_.vertices[count] = mesh_.vertices[v];
-    count += merged_[v] ? 0 : 1;
+    stays[v] = !merged_[v];
+    count += stays[v] ? 1 : 0;
   }
-  mesh_.vertices.resize(count);
+  mesh_.vertices = select_values(mesh_.vertices, stays);
+  mesh_.start_points = select_values(mesh_.start_points, stays);
   mesh_.triangles = select_values(mesh_.triangles, alive_);
   for (Triangle& t : mesh_.triangles) {
     t = {index[t[0]], index[t[1]], index[t[2]]};

@@ -35,14 +35,22 @@ RefinementRun::RefinementRun(const TriangleMesh& mesh,
       config_(config),
       progress_(progress),
       finest_(views, labels, config),
-      current_(mesh) {}
+      current_(mesh) {
+  if (current_.start_points.empty()) {
+    current_.start_points = current_.vertices;
+  }
+}
 
-RefinementResult RefinementRun::run() {
-  result_.facets_before = start_.triangles.size();
+void RefinementRun::begin() {
   if (current_.labels.empty() && has_segmentation()) {
     relabel(&current_);
   }
   finest_.choose_pairs(current_, finest_.render(current_));
+}
+
+RefinementResult RefinementRun::run() {
+  result_.facets_before = start_.triangles.size();
+  begin();
   const Measured before = measure(current_, 0);
   result_.before = before.terms;
   TriangleMesh best = current_;

@@ -21,8 +21,12 @@ class RefinementRun {
                 const ProgressCallback& progress);
 
   RefinementResult run();
+  /// In the place of run().
+  RefinementEstimate estimate();
 
  private:
+  /// Labels the mesh if it has none, and chooses the pairs of views.
+  void begin();
   /// Labels the mesh anew from the views' segmentations; keeps labels where there are none.
   void relabel(TriangleMesh* mesh);
   bool has_segmentation() const;

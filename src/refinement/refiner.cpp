@@ -32,13 +32,13 @@ std::vector<LabeledView> views_of_part(const TriangleMesh& mesh,
   return seeing;
 }
 
-}  // namespace
-
-RefinementResult refine(const TriangleMesh& mesh,
-                        const std::vector<LabeledView>& views,
-                        const LabelSet& labels,
-                        const RefinementConfig& config,
-                        const ProgressCallback& progress) {
+/// Checks the arguments of refine() and calls `work` with what of them counts.
+template <typename Work>
+auto with_checked(const TriangleMesh& mesh,
+                  const std::vector<LabeledView>& views,
+                  const LabelSet& labels,
+                  const RefinementConfig& config,
+                  const Work& work) {
   check_config(config);
   check_views(views);
   validate(mesh);
@@ -47,11 +47,32 @@ RefinementResult refine(const TriangleMesh& mesh,
   const std::vector<Label> sky = labels.sky_ids();
   own_config.labeling.excluded.insert(own_config.labeling.excluded.end(), sky.begin(), sky.end());
   if (config.part.is_everything()) {
-    return RefinementRun(mesh, views, labels, own_config, progress).run();
+    return work(views, own_config);
   }
   const std::vector<LabeledView> seeing = views_of_part(mesh, views, config.part);
   check_part_views(seeing.size(), views.size());
-  return RefinementRun(mesh, seeing, labels, own_config, progress).run();
+  return work(seeing, own_config);
+}
+
+}  // namespace
+
+RefinementResult refine(const TriangleMesh& mesh,
+                        const std::vector<LabeledView>& views,
+                        const LabelSet& labels,
+                        const RefinementConfig& config,
+                        const ProgressCallback& progress) {
+  return with_checked(mesh, views, labels, config, [&](const auto& seeing, const auto& own_config) {
+    return RefinementRun(mesh, seeing, labels, own_config, progress).run();
+  });
+}
+
+RefinementEstimate estimate_refinement(const TriangleMesh& mesh,
+                                       const std::vector<LabeledView>& views,
+                                       const LabelSet& labels,
+                                       const RefinementConfig& config) {
+  return with_checked(mesh, views, labels, config, [&](const auto& seeing, const auto& own_config) {
+    return RefinementRun(mesh, seeing, labels, own_config, {}).estimate();
+  });
 }
 
 }  // namespace facet_mapping

@@ -3,6 +3,7 @@
 #include "facet_mapping/refinement/subdivision.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "edge_table.h"
@@ -58,15 +59,23 @@ class SplitRound {
     }
   }
 
-  void add_middles(std::vector<Eigen::Vector3d>* vertices) {
+  void number_middles() {
     middle_.assign(table_.edges.size(), kNotSplit);
+    auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (std::size_t e = 0; e < middle_.size(); ++e) {
-      if (marked_[e] != 0) {
-        middle_[e] = static_cast<std::uint32_t>(vertices->size());
+      middle_[e] = marked_[e] != 0 ? next++ : kNotSplit;
+    }
+  }
+
+  /// The points of the vertices and, behind them, of the middles; none if there are none.
+  std::vector<Eigen::Vector3d> with_middles(std::vector<Eigen::Vector3d> points) const {
+    for (std::size_t e = 0; e < middle_.size() && !points.empty(); ++e) {
+      if (middle_[e] != kNotSplit) {
         const auto [a, b] = table_.edges[e];
-        vertices->emplace_back(0.5 * (mesh_.vertices[a] + mesh_.vertices[b]));
+        points.emplace_back(0.5 * (points[a] + points[b]));
       }
     }
+    return points;
   }
 
   /// Middle vertices of a facet's sides, kNotSplit where a side stays.
@@ -151,25 +160,33 @@ void carry(const std::vector<T>& from, std::size_t facet, std::vector<T>* to) {
   }
 }
 
-void split_round(SplitRound* round, TriangleMesh* mesh, std::vector<double>* pixels) {
+/// What goes with the facets while they are split.
+struct FacetTags {
+  std::vector<double> pixels;
+  std::vector<std::uint32_t> parents;  ///< facet of the mesh at the start
+};
+
+void split_round(SplitRound* round, TriangleMesh* mesh, FacetTags* tags) {
   TriangleMesh finer;
-  std::vector<double> finer_pixels;
-  finer.vertices = mesh->vertices;
-  round->add_middles(&finer.vertices);
+  FacetTags finer_tags;
+  round->number_middles();
+  finer.vertices = round->with_middles(mesh->vertices);
+  finer.start_points = round->with_middles(mesh->start_points);
   for (std::size_t f = 0; f < mesh->triangles.size(); ++f) {
     const double whole = area(finer.vertices, mesh->triangles[f]);
     for (const Triangle& child :
          split_facet(finer.vertices, mesh->triangles[f], round->middles(f))) {
       finer.triangles.push_back(child);
       const double share = whole > 0.0 ? area(finer.vertices, child) / whole : 0.0;
-      finer_pixels.push_back(share * (*pixels)[f]);
+      finer_tags.pixels.push_back(share * tags->pixels[f]);
+      finer_tags.parents.push_back(tags->parents[f]);
       carry(mesh->labels, f, &finer.labels);
       carry(mesh->confidence, f, &finer.confidence);
       carry(mesh->views, f, &finer.views);
     }
   }
   *mesh = std::move(finer);
-  *pixels = std::move(finer_pixels);
+  *tags = std::move(finer_tags);
 }
 
 }  // namespace
@@ -196,20 +213,27 @@ std::vector<double> best_view_pixels(const TriangleMesh& mesh,
   return best;
 }
 
-TriangleMesh subdivide(const TriangleMesh& mesh, const std::vector<double>& pixels, double limit) {
+TriangleMesh subdivide(const TriangleMesh& mesh,
+                       const std::vector<double>& pixels,
+                       double limit,
+                       std::vector<std::uint32_t>* parents) {
   if (pixels.size() != mesh.triangles.size() || !(limit > 0.0)) {
     throw std::invalid_argument("subdivide: give one pixel count per facet and a positive limit");
   }
   constexpr int kMaxRounds = 20;
   TriangleMesh finer = mesh;
-  std::vector<double> shares = pixels;
+  FacetTags tags{pixels, std::vector<std::uint32_t>(pixels.size())};
+  std::iota(tags.parents.begin(), tags.parents.end(), 0);
   for (int k = 0; k < kMaxRounds; ++k) {
     SplitRound round(finer);
-    if (!round.mark(shares, limit)) {
+    if (!round.mark(tags.pixels, limit)) {
       break;
     }
     round.propagate();
-    split_round(&round, &finer, &shares);
+    split_round(&round, &finer, &tags);
+  }
+  if (parents != nullptr) {
+    *parents = std::move(tags.parents);
   }
   return finer;
 }

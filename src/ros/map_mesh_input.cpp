@@ -17,9 +17,11 @@ constexpr double kFirstMeshWaitS = 3.0;
 
 MapMeshInput::MapMeshInput(ros::NodeHandle nh,
                            const std::string& map_frame,
-                           NodeDiagnostics* diagnostics)
+                           NodeDiagnostics* diagnostics,
+                           std::function<void()> on_update)
     : map_frame_(map_frame),
       diagnostics_(diagnostics),
+      on_update_(std::move(on_update)),
       topic_(nh.resolveName("mesh")),
       client_(nh.serviceClient<GetMesh>("get_mesh")),
       jobs_(1, [this](const std::string& error) {
@@ -60,10 +62,16 @@ MeshReceiver::Result MapMeshInput::apply(const LabeledMesh& message) {
                                 "', but map_frame is '" + map_frame_ +
                                 "'; give both nodes the same map_frame");
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const MeshReceiver::Result result = receiver_.apply(message);
+  MeshReceiver::Result result{};
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    result = receiver_.apply(message);
+    if (result == MeshReceiver::Result::kApplied) {
+      cache_.reset();
+    }
+  }
   if (result == MeshReceiver::Result::kApplied) {
-    cache_.reset();
+    on_update_();
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/refine_services.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -65,7 +66,7 @@ ros::AdvertiseServiceOptions on_queue(
 
 /// All that a refinement needs; owned by the job, which may outlive the call.
 struct RefineServices::Task {
-  MeshStatePtr start;
+  RefineStart start;
   std::vector<LabeledView> views;
   RefinementConfig config;
   double time_budget_s = 0.0;
@@ -113,20 +114,20 @@ MeshStatePtr RefineServices::mesh_of_request(const LabeledMesh& message) const {
   return state;
 }
 
-MeshStatePtr RefineServices::start_mesh(const Refine::Request& request) const {
+RefineStart RefineServices::start_mesh(const Refine::Request& request) const {
   using Request = Refine::Request;
   if (request.start == Request::START_REQUEST) {
-    return mesh_of_request(request.mesh);
+    return {mesh_of_request(request.mesh), nullptr};
   }
   if (request.start == Request::START_REFINED) {
-    return sources_.refined->current();
+    return sources_.meshes->from_refined();
   }
   if (request.start != Request::START_MAP) {
     throw std::invalid_argument(
         "start must be 0 (the mapper's mesh), 1 (the last refined one) or "
         "2 (mesh in the request)");
   }
-  return sources_.map_mesh();
+  return sources_.meshes->from_map();
 }
 
 std::vector<LabeledView> RefineServices::require_views(std::size_t least,
@@ -156,23 +157,18 @@ RefineServices::Task RefineServices::prepare(const Refine::Request& request) con
   task.dry_run = request.dry_run != 0;
   task.start = start_mesh(request);
   std::string problem;
-  if (!task.start || task.start->mesh.empty()) {
+  if (!task.start.mesh || task.start.mesh->mesh.empty()) {
     problem =
         request.start == Refine::Request::START_REFINED
             ? "nothing was refined yet; use start 0"
             : "there is no mesh yet: it comes from the mapper on '" + sources_.map_mesh_topic + "'";
   }
   task.views = require_views(kLeastViews, problem);
-  task.mib = estimate_refine_mib(task.start->mesh, task.views, task.config);
+  task.mib = estimate_refine_mib(task.start.mesh->mesh, task.views, task.config);
   if (request.memory_budget > 0.0 && task.mib > request.memory_budget) {
     throw std::invalid_argument("the job would need about " + number_text(task.mib) +
                                 " MiB, more than memory_budget: keep fewer keyframes "
                                 "(max_keyframes, keyframe_translation_m) or use smaller images");
-  }
-  if (task.dry_run) {  // no iteration: only the energies are measured
-    task.config.levels = 1;
-    task.config.iterations = 0;
-    task.config.relabel = false;
   }
   return task;
 }
@@ -199,49 +195,54 @@ bool RefineServices::report_progress(const Task& task,
 
 RefinementResult RefineServices::run(const Task& task, std::string* why_stopped) {
   ROS_INFO("refining %zu facets with %zu keyframes (about %.0f MiB)",
-           task.start->mesh.triangles.size(),
+           task.start.mesh->mesh.triangles.size(),
            task.views.size(),
            task.mib);
   RefinementResult result = facet_mapping::refine(
-      task.start->mesh,
+      task.start.mesh->mesh,
       task.views,
       sources_.refined->labels(),
       task.config,
       [&](const RefinementProgress& p) { return report_progress(task, p, why_stopped); });
-  if (!task.dry_run && !ros::isShuttingDown()) {
-    publish_result(result.mesh, task.start->stamp);
+  if (!ros::isShuttingDown()) {
+    sources_.meshes->take(task.start, result.mesh, task.config.part);
   }
   return result;
 }
 
-void RefineServices::publish_result(TriangleMesh mesh, const ros::Time& stamp) {
-  auto state = std::make_shared<MeshState>();
-  state->mesh = std::move(mesh);
-  state->stamp = stamp;
-  sources_.refined->publish(state);
-  sources_.on_result();
+std::string RefineServices::estimate(const std::shared_ptr<Task>& task,
+                                     Refine::Response* response) {
+  const auto result = std::make_shared<RefinementEstimate>();
+  job_.run("~refine (dry run)", [this, task, result] {
+    *result = estimate_refinement(
+        task->start.mesh->mesh, task->views, sources_.refined->labels(), task->config);
+  });
+  response->before = to_message(result->energy);
+  response->after = response->before;
+  response->facets_before = task->start.mesh->mesh.triangles.size();
+  response->facets_after = result->facets;
+  response->seconds =
+      task->time_budget_s > 0.0 ? std::min(result->seconds, task->time_budget_s) : result->seconds;
+  return "the request can be served (nothing was changed): " + std::to_string(result->views) +
+         " keyframes, about " + number_text(task->mib) + " MiB, " + number_text(response->seconds) +
+         " s, " + std::to_string(result->facets) + " facets";
 }
 
 bool RefineServices::refine(Refine::Request& request, Refine::Response& response) {
   response.status = answer([&] {
     const auto task = std::make_shared<Task>(prepare(request));
-    const auto result = std::make_shared<RefinementResult>();
-    const auto why_stopped = std::make_shared<std::string>();
     response.views = static_cast<std::uint32_t>(task->views.size());
     response.peak_memory = task->mib;
+    if (task->dry_run) {
+      return estimate(task, &response);
+    }
+    const auto result = std::make_shared<RefinementResult>();
+    const auto why_stopped = std::make_shared<std::string>();
     job_.run("~refine", [=] { *result = run(*task, why_stopped.get()); });
     fill_response(*result, &response);
     response.seconds = seconds_since(task->begin);
-    if (task->dry_run) {
-      response.after = response.before;
-      response.facets_after = response.facets_before;
-      response.relabelled = 0;
-      return "the request can be served (nothing was changed): " +
-             std::to_string(task->views.size()) + " keyframes, about " + number_text(task->mib) +
-             " MiB";
-    }
     if (request.return_mesh != 0) {
-      response.mesh = sources_.refined->detached_message(result->mesh, task->start->stamp);
+      response.mesh = sources_.refined->detached_message(result->mesh, task->start.mesh->stamp);
     }
     const std::string summary = energy_text(*result) + ", " + std::to_string(result->facets_after) +
                                 " facets, " + number_text(response.seconds) +
@@ -261,11 +262,11 @@ bool RefineServices::refine(Refine::Request& request, Refine::Response& response
 bool RefineServices::relabel(Relabel::Request& /*request*/, Relabel::Response& response) {
   response.status = answer([&] {
     const ros::WallTime begin = ros::WallTime::now();
-    MeshStatePtr start = sources_.refined->current();
-    if (!start || start->mesh.empty()) {
-      start = sources_.map_mesh();
+    RefineStart start = sources_.meshes->from_refined();
+    if (!start.mesh || start.mesh->mesh.empty()) {
+      start = sources_.meshes->from_map();
     }
-    const bool missing = !start || start->mesh.empty();
+    const bool missing = !start.mesh || start.mesh->mesh.empty();
     const auto views = std::make_shared<std::vector<LabeledView>>(require_views(
         1,
         missing
@@ -277,17 +278,20 @@ bool RefineServices::relabel(Relabel::Request& /*request*/, Relabel::Response& r
     const auto result = std::make_shared<LabelingResult>();
     job_.run("~relabel", [this, start, views, result] {
       const auto renderer = make_renderer();
-      const ObservedMesh observed(start->mesh);
+      TriangleMesh mesh = start.mesh->mesh;
+      const ObservedMesh observed(mesh);
       std::vector<FacetImage> renderings;
       for (const LabeledView& view : *views) {
         renderings.push_back(observed.render(renderer.get(), view.view));
       }
       LabelingConfig config = defaults_.labeling;
       config.excluded = sources_.refined->labels().sky_ids();
-      *result = label_facets(start->mesh, *views, renderings, config);
-      TriangleMesh mesh = start->mesh;
+      *result = label_facets(mesh, *views, renderings, config);
       apply_labeling(*result, &mesh);
-      publish_result(std::move(mesh), start->stamp);
+      if (mesh.start_points.empty()) {
+        mesh.start_points = mesh.vertices;
+      }
+      sources_.meshes->take(start, std::move(mesh), {});
     });
     response.facets = result->labels.size();
     response.relabelled = result->changed;

@@ -33,9 +33,11 @@ RefinerNode::RefinerNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
                labels_,
                config_.segmentation.label_file),
       mesh_services_(private_nh, &refined_, &tf_buffer_, "call ~refine (or ~relabel) first"),
-      map_mesh_(nh, config_.pose.map_frame, &diagnostics_),
+      meshes_(
+          [this] { return map_mesh_.mesh(); }, &refined_, &diagnostics_, [this] { on_result(); }),
+      map_mesh_(nh, config_.pose.map_frame, &diagnostics_, [this] { meshes_.on_map_update(); }),
       label_image_(
-          private_nh, labels_, [this] { return newest_mesh(); }, &keyframes_, &diagnostics_),
+          private_nh, labels_, [this] { return meshes_.newest(); }, &keyframes_, &diagnostics_),
       input_(nh,
              config_.segmentation,
              labels_,
@@ -47,14 +49,13 @@ RefinerNode::RefinerNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
       reset_server_(private_nh.advertiseService("reset", &RefinerNode::reset, this)),
       services_(private_nh,
                 config_.refinement,
-                {[this] { return map_mesh_.mesh(); },
+                {&meshes_,
                  map_mesh_.topic(),
                  nh.resolveName("image_rect"),
                  &tf_buffer_,
                  &keyframes_,
                  &refined_,
-                 &diagnostics_,
-                 [this] { on_result(); }}) {
+                 &diagnostics_}) {
   diagnostics_.on_publish([this] { refresh_diagnostics(); });
 }
 
@@ -64,6 +65,7 @@ RefinerNode::~RefinerNode() {
 
 void RefinerNode::stop() {
   services_.stop();
+  meshes_.stop();
   label_image_.stop();
   map_mesh_.stop();
 }
@@ -100,18 +102,11 @@ void RefinerNode::on_time_jump(double jump_s) {
   }
 }
 
-MeshStatePtr RefinerNode::newest_mesh() {
-  const MeshStatePtr refined = refined_.current();
-  const MeshStatePtr map = map_mesh_.mesh();
-  const bool use_map = !refined || (map && map->stamp > refined->stamp);
-  return use_map ? map : refined;
-}
-
 void RefinerNode::forget_everything() {
   transforms_.clear();
   input_.clear();
   keyframes_.clear();
-  refined_.reset(ros::Time::now());
+  meshes_.clear(ros::Time::now());
 }
 
 bool RefinerNode::reset(Reset::Request& /*request*/, Reset::Response& response) {

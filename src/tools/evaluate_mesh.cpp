@@ -70,10 +70,9 @@ void add_measures(CLI::App& app, Options& options) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option(
-         "MESH.ply... DATASET",
-         options.paths,
-         "One or several meshes, then the dataset folder (KITTI, Strecha; see kitti_to_bag)")
+  app.add_option("MESH.ply... DATASET",
+                 options.paths,
+                 "One or several meshes, then the dataset folder (layouts below)")
       ->required()
       ->expected(2, 1000);
   add_selection(app, options);
@@ -91,7 +90,9 @@ void add_options(CLI::App& app, Options& options) {
       "scan\n"
       "where there is none; labels with gt_label/ or labels_gt/. With several meshes the last "
       "column is\n"
-      "the change from the first to the last.\n\n"
+      "the change from the first to the last.\n\n" +
+      dataset_layouts_help() +
+      "\n\n"
       "Example: evaluate_mesh before.ply after.ply ~/kitti/drive --every 10 --max-depth 30");
 }
 

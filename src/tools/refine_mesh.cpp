@@ -76,7 +76,8 @@ void add_config_options(CLI::App* app, Options* options) {
 
 void add_options(CLI::App* app, Options* options) {
   app->add_option("mesh", options->mesh, "mesh to refine (PLY)")->required();
-  app->add_option("dataset", options->dataset, "folder with images and poses")->required();
+  app->add_option("dataset", options->dataset, "folder with images and poses (layouts below)")
+      ->required();
   app->add_option("output", options->output, "refined mesh (PLY)")->required();
   app->add_option("--labels", options->labels, "class list (YAML); default: the mesh's own");
   app->add_option("--first", options->first, "first frame")->capture_default_str();
@@ -93,6 +94,7 @@ void add_options(CLI::App* app, Options* options) {
       ->capture_default_str();
   app->add_option("--seed", options->seed, "of --perturb-px")->capture_default_str();
   add_config_options(app, options);
+  app->footer(dataset_layouts_help());
 }
 
 LabeledView read_view(const DatasetFrame& frame, const LabelSet& labels) {

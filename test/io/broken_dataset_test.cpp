@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whatever is wrong with a folder is named, all of it at once.
-#include <functional>
-
 #include "io/temp_folder.h"
+#include "support/damaged_dataset.h"
 #include "support/small_datasets.h"
 #include <gtest/gtest.h>
 
@@ -12,50 +11,14 @@
 namespace facet_mapping {
 namespace {
 
+using testing::check;
 using testing::error_of;
-using testing::read_text;
+using testing::Maker;
+using testing::remove_file;
+using testing::replace;
 using testing::TempFolder;
+using testing::write_file;
 using testing::write_text;
-
-using Damage = std::function<void(const std::string& folder)>;
-
-struct Case {
-  Damage damage;
-  std::vector<std::string> expected;  ///< parts of the message
-};
-
-Damage remove_file(const std::string& name) {
-  return [name](const std::string& folder) { std::filesystem::remove_all(folder + "/" + name); };
-}
-
-Damage write_file(const std::string& name, const std::string& text) {
-  return [name, text](const std::string& folder) { write_text(folder + "/" + name, text); };
-}
-
-Damage replace(const std::string& name, const std::string& old_text, const std::string& new_text) {
-  return [=](const std::string& folder) {
-    std::string text = read_text(folder + "/" + name);
-    const std::size_t at = text.find(old_text);
-    ASSERT_NE(at, std::string::npos) << old_text;
-    write_text(folder + "/" + name, text.replace(at, old_text.size(), new_text));
-  };
-}
-
-using Maker = std::function<std::string(const std::string& parent)>;
-
-void check(const Maker& make, const std::vector<Case>& cases) {
-  for (const Case& damaged : cases) {
-    const TempFolder parent;
-    const std::string folder = make(parent / "set");
-    ASSERT_EQ(error_of([&] { read_dataset(folder); }), "");
-    damaged.damage(folder);
-    const std::string error = error_of([&] { read_dataset(folder); });
-    EXPECT_NE(error.find(folder), std::string::npos) << damaged.expected[0];
-    for (const std::string& part : damaged.expected) {
-      EXPECT_NE(error.find(part), std::string::npos) << part << " / " << error;
-    }
-  }
-}
 
 TEST(BrokenDataset, PlainLayout) {
   const Maker make = [](const std::string& folder) {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "corridor.h"
-#include "node_harness.h"
+#include "mapped_corridor.h"
 #include <gtest/gtest.h>
 
 #include "facet_mapping/CancelRefine.h"
@@ -28,36 +28,6 @@
 namespace facet_mapping::test {
 namespace {
 
-constexpr int kFrames = 5;
-constexpr double kStepM = 0.8;
-
-template <typename Message>
-class LastMessage {
- public:
-  explicit LastMessage(const std::string& topic) {
-    subscriber_ = ros::NodeHandle().subscribe<Message>(
-        topic, 100, [this](const boost::shared_ptr<const Message>& message) { last_ = message; });
-  }
-  bool wait() const {
-    return wait_until([this] { return last_ != nullptr; });
-  }
-  const boost::shared_ptr<const Message>& get() const { return last_; }
-
- private:
-  ros::Subscriber subscriber_;
-  boost::shared_ptr<const Message> last_;
-};
-
-template <typename Service>
-typename Service::Response call(const std::string& name,
-                                const typename Service::Request& request = {}) {
-  Service service;
-  service.request = request;
-  EXPECT_TRUE(ros::service::waitForService(name, 10000));
-  EXPECT_TRUE(ros::service::call(name, service)) << name;
-  return service.response;
-}
-
 std::set<Label> classes_of(const TriangleMesh& mesh) {
   return {mesh.labels.begin(), mesh.labels.end()};
 }
@@ -74,54 +44,7 @@ double median_error(const TriangleMesh& mesh) {
   return errors.empty() ? 1e9 : errors[errors.size() / 2];
 }
 
-/// Drives down the corridor once, for all tests.
-class ChainTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    map_mesh_ = std::make_unique<MeshEar>("mapper/mesh");
-    arrived_ = drive();
-  }
-  void SetUp() override { ASSERT_TRUE(arrived_) << "not every frame became a keyframe"; }
-
-  static bool drive() {
-    CorridorCar car;
-    const DiagnosticsEar diagnostics;
-    if (!wait_until([&] { return car.is_connected(); })) {
-      return false;
-    }
-    // The nodes connect to each other in their own time, and until then stereo_points is lazy.
-    const auto has_begun = [&] {
-      car.drive_to(0.0, ros::Time::now());
-      wait_until([] { return false; }, 0.3);
-      return diagnostics.value("mapper", "keyframes") == 1 &&
-             diagnostics.value("refiner", "keyframes") == 1;
-    };
-    if (!wait_until(has_begun, 60.0)) {
-      return false;
-    }
-    for (int k = 1; k < kFrames; ++k) {
-      car.drive_to(k * kStepM, ros::Time::now());
-      wait_until([] { return false; }, 0.1);
-    }
-    const auto is_mapped = [&] {
-      return diagnostics.value("mapper", "keyframes") == kFrames &&
-             diagnostics.value("refiner", "keyframes") == kFrames &&
-             diagnostics.value("mapper", "frames waiting for the map") == 0 &&
-             map_mesh_->has_facets();
-    };
-    const bool mapped = wait_until(is_mapped, 60.0);
-    wait_until([] { return false; }, 0.5);  // the last delta
-    return mapped;
-  }
-
-  static void TearDownTestSuite() { map_mesh_.reset(); }
-
-  static std::unique_ptr<MeshEar> map_mesh_;
-  static bool arrived_;
-};
-
-std::unique_ptr<MeshEar> ChainTest::map_mesh_;
-bool ChainTest::arrived_ = false;
+using ChainTest = MappedCorridor;
 
 TEST_F(ChainTest, MapIsAClosedLabelledManifoldWhereTheCorridorIs) {
   EXPECT_FALSE(map_mesh_->missed_something());
@@ -173,6 +96,8 @@ TEST_F(ChainTest, DryRunChangesNothing) {
   EXPECT_EQ(response.status.code, Status::OK) << response.status.message;
   EXPECT_EQ(response.views, kFrames);
   EXPECT_GT(response.peak_memory, 0.0);
+  EXPECT_GT(response.seconds, 0.0);
+  EXPECT_GE(response.facets_after, response.facets_before);
   EXPECT_GT(response.before.photometric, 0.0);
   EXPECT_EQ(call<GetMesh>("refiner/get_mesh").status.code, Status::NOT_READY);
 }
@@ -191,28 +116,6 @@ TEST_F(ChainTest, MemoryBudgetAndPartsThatAreNotThereAreRefused) {
   request.start = Refine::Request::START_REFINED;
   EXPECT_EQ(call<Refine>("refiner/refine", request).status.code, Status::NOT_READY);
   EXPECT_EQ(call<CancelRefine>("refiner/cancel_refine").status.code, Status::NOT_READY);
-}
-
-/// Corners of the facets of a class, in whole millimetres.
-std::set<std::array<long, 3>> corners_of(const TriangleMesh& mesh, Label label) {
-  std::set<std::array<long, 3>> corners;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (int k = 0; mesh.labels[f] == label && k < 3; ++k) {
-      const Eigen::Vector3d mm = 1e3 * mesh.vertices[mesh.triangles[f][k]];
-      corners.insert({std::lround(mm.x()), std::lround(mm.y()), std::lround(mm.z())});
-    }
-  }
-  return corners;
-}
-
-/// Share of the corners that are still there.
-double share_kept(const std::set<std::array<long, 3>>& before,
-                  const std::set<std::array<long, 3>>& after) {
-  std::size_t kept = 0;
-  for (const std::array<long, 3>& corner : before) {
-    kept += after.count(corner);
-  }
-  return static_cast<double>(kept) / static_cast<double>(before.size());
 }
 
 TEST_F(ChainTest, RefiningOneClassLeavesTheOthersAlone) {

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "facet_mapping/geometry/facet_search.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -74,6 +76,45 @@ TEST(RefineContract, ZeroIterationsReturnTheStart) {
   const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
   EXPECT_EQ(result.mesh.vertices, scene.mesh.vertices);
   EXPECT_EQ(result.before.photometric, result.after.photometric);
+}
+
+TEST(RefineContract, TheResultSaysWhereItsVerticesLayAtTheStart) {
+  test::Scene scene = test::bumpy_ball(3);
+  RefinementConfig config = test::photometric_config();
+  config.subdivide_px = 1e9;
+  config.keep_quality = false;
+  RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  EXPECT_EQ(result.mesh.start_points, scene.mesh.vertices);
+  EXPECT_NE(result.mesh.vertices, scene.mesh.vertices);
+  // A second refinement goes on from the first one's start.
+  result = refine(result.mesh, scene.views, LabelSet(), config);
+  EXPECT_EQ(result.mesh.start_points, scene.mesh.vertices);
+}
+
+TEST(RefineContract, TheStartPointsOfAFinerMeshLieOnTheStart) {
+  const test::Scene scene = test::wavy_plane();
+  RefinementConfig config = test::photometric_config();
+  config.subdivide_px = 100.0;
+  const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  ASSERT_GT(result.facets_after, result.facets_before);
+  ASSERT_EQ(result.mesh.start_points.size(), result.mesh.vertices.size());
+  const FacetSearch start(scene.mesh.vertices, scene.mesh.triangles);
+  for (const Eigen::Vector3d& p : result.mesh.start_points) {
+    EXPECT_LT((start.nearest(p).point - p).norm(), 0.01);
+  }
+}
+
+TEST(RefineContract, TheEstimateChecksAndChangesNothing) {
+  const test::Scene scene = test::bumpy_ball(3);
+  const RefinementConfig config = test::photometric_config();
+  const RefinementEstimate estimate =
+      estimate_refinement(scene.mesh, scene.views, LabelSet(), config);
+  const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
+  EXPECT_EQ(estimate.energy.photometric, result.before.photometric);
+  EXPECT_EQ(estimate.views, scene.views.size());
+  EXPECT_NEAR(estimate.facets, result.facets_after, 0.3 * result.facets_after);
+  EXPECT_GT(estimate.seconds, estimate.measured_s);
+  EXPECT_THROW(estimate_refinement(scene.mesh, {}, LabelSet(), config), std::invalid_argument);
 }
 
 TEST(RefineContract, ViewsWithoutCommonSurfaceAreHarmless) {

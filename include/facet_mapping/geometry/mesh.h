@@ -18,7 +18,7 @@ namespace facet_mapping {
 /// Vertex indices, counter-clockwise seen from free space.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Facet attributes are either empty (absent) or hold one entry per triangle.
+/// Attributes are either empty (absent) or hold one entry per triangle, or per vertex.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;  ///< map frame, metres
   std::vector<Triangle> triangles;
@@ -27,6 +27,8 @@ struct TriangleMesh {
   /// Number of images (or rays, before any image was looked at) that see the facet. 0 says that it
   /// only closes the surface through space that nobody saw: see is_gap.
   std::vector<std::uint16_t> views;
+  /// Per vertex, where it lay on the surface that refinement started from, map frame, metres.
+  std::vector<Eigen::Vector3d> start_points;
 
   bool empty() const { return triangles.empty(); }
 };

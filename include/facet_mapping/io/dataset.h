@@ -16,8 +16,8 @@
 namespace facet_mapping {
 
 /// One instant of a dataset. Paths are empty where the folder has no such file. KITTI poses are in
-/// a map frame with z up (REP-103: the first left camera, x forward, y left), Strecha poses as
-/// given.
+/// a map frame with z up (REP-103: the first left camera, x forward, y left), poses of the other
+/// layouts as given.
 struct DatasetFrame {
   double stamp = 0.0;  ///< seconds
   View view;           ///< left (or only) camera
@@ -36,26 +36,44 @@ struct Dataset {
   bool has_right = false;
   bool has_scans = false;
   bool is_z_up = false;        ///< the poses' frame is a REP-103 map (all KITTI layouts)
-  double depth_scale = 256.0;  ///< PNG units per metre
+  double depth_scale = 256.0;  ///< PNG units per metre (per unit of the poses, if not metric)
   double epoch = 0.0;          ///< Unix time of stamp 0, seconds; 0 = the folder does not say
   double baseline_m() const { return -right_from_left.translation().x(); }
 };
 
 /// Finds out the layout and reads everything but the images (of these only the first, for the
-/// size). Layouts, told apart by the file in front:
+/// size; where each has its own camera, the size of each). Layouts, told apart by the file in
+/// front:
 ///  - left/: left/ [right/ labels/ gt_label/ gt_depth/ velodyne/] calib.txt (K, T_right_left,
 ///    T_left_velo, baseline_m), poses.txt (world_from_left, first camera), times.txt;
 ///  - image_2/ (or image_0/): KITTI odometry, calib.txt (P0..P3, Tr), times.txt, poses.txt or
 ///    ../../poses/NN.txt, [image_3/ velodyne/ labels/ gt_label/ gt_depth/];
-///  - image_02/ (or image_00/): KITTI raw drive, oxts/, [image_03/ velodyne_points/
-///  image_02/labels/ or
-///    labels/], calib_*.txt in the parent folder; poses from GPS/IMU by the Mercator projection;
-///  - cameras.json: Strecha, images/ [depth_gt/ labels_gt/ segmentation/]; the stamp is the view's
-///    index, depth in units of 0.5 mm.
-/// Left and right images, poses and times must be complete; segmentation, ground truth and scans
-/// may miss frames. Throws std::runtime_error listing every missing or broken file with what was
-/// expected.
+///  - image_02/ (or image_00/): KITTI raw drive, oxts/, [image_03/ velodyne_points/ labels/ or
+///    image_02/labels/], calib_*.txt in the parent folder; poses from GPS/IMU by the Mercator
+///    projection;
+///  - cameras.json: Strecha, images/ [depth_gt/ (0.5 mm units) labels_gt/ segmentation/];
+///  - sparse/0/, sparse/ or the folder itself with cameras.txt and images.txt: COLMAP text model,
+///    images/ of the model's size [depth_gt/ with units of 1/2000 of the model's or those in
+///    depth_gt/scale.txt]; frames are ordered by image name, subfolders of images/ are those of the
+///    other folders too. Cameras must be pinholes (of models with distortion those whose
+///    coefficients are zero); COLMAP's pixel centres at halves become ours at integers;
+///  - cams/ (or cams_1/) with 00000000_cam.txt ...: MVSNet and DTU prepared for it, images/ (or
+///    blended_images/) 00000000.jpg ..., a camera for each image of the images' own size, pixel
+///    centres at integers (cameras that colmap2mvsnet.py wrote are half a pixel off: give the
+///    COLMAP model instead); [depth_gt/ with scale.txt];
+///  - rect_001_max.png ... or rect_001_3_r5000.png ... here or in images/ (of one light: the one
+///    that more positions have, else max): DTU as published; 3x4 projection matrices pos_001.txt ... in cal18/, calib/ or
+///    Calibration/cal18/ here or in the two folders above (positions without image are left out),
+///    pixel centres at integers; [depth_gt/ with scale.txt].
+/// The last four have single images: labels are also found in segmentation/ or labels/, ground
+/// truth in labels_gt/ or gt_label/ and depth_gt/ or gt_depth/ by the image's name; the stamp is
+/// the view's index; lengths are in the units of the folder (DTU: millimetres). Left and right
+/// images, poses and times must be complete; segmentation, ground truth and scans may miss frames.
+/// Throws std::runtime_error listing every missing or broken file with what was expected.
 Dataset read_dataset(const std::string& folder);
+
+/// The layouts and what tells them, a line each: for the help of programs.
+std::string dataset_layouts_help();
 
 /// One past the last of the frames `first` .. `last` (this one included, if there is one) that the
 /// dataset has. Throws std::invalid_argument if it has none of them.

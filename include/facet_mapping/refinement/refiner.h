@@ -64,7 +64,7 @@ struct RefinementProgress {
 using ProgressCallback = std::function<bool(const RefinementProgress&)>;
 
 struct RefinementResult {
-  TriangleMesh mesh;
+  TriangleMesh mesh;   ///< with start_points: on the start mesh, or on that mesh's own start
   EnergyTerms before;  ///< of the start mesh on the finest level's images
   EnergyTerms after;   ///< of the result on the same images
   std::size_t facets_before = 0;
@@ -90,5 +90,21 @@ RefinementResult refine(const TriangleMesh& mesh,
                         const LabelSet& labels,
                         const RefinementConfig& config,
                         const ProgressCallback& progress = {});
+
+/// What a refinement with these arguments would cost on this machine as busy as it is now.
+struct RefinementEstimate {
+  EnergyTerms energy;       ///< of the start mesh on the finest level's images
+  std::size_t facets = 0;   ///< of the result, about
+  std::size_t views = 0;    ///< that see the part
+  double measured_s = 0.0;  ///< wall time that the estimate took
+  double seconds = 0.0;     ///< wall time of the refinement, about
+};
+
+/// Does what a level begins with, measures how long that takes, and changes nothing. Throws as
+/// refine() does.
+RefinementEstimate estimate_refinement(const TriangleMesh& mesh,
+                                       const std::vector<LabeledView>& views,
+                                       const LabelSet& labels,
+                                       const RefinementConfig& config);
 
 }  // namespace facet_mapping

@@ -18,8 +18,11 @@ std::vector<double> best_view_pixels(const TriangleMesh& mesh,
 /// parent's pixels by area). Edges are split, not facets: both facets of a split edge use the same
 /// new vertex, so a closed 2-manifold stays one and no T-junction arises. Wherever an edge is split
 /// the longest edge of its facets is split too, which keeps the angles from degenerating.
-/// Attributes are carried to the children. Throws std::invalid_argument if `pixels` has not one
-/// entry per facet or `limit` is not positive.
-TriangleMesh subdivide(const TriangleMesh& mesh, const std::vector<double>& pixels, double limit);
+/// Attributes are carried to the children; `parents`, if given, gets each child's facet of `mesh`.
+/// Throws std::invalid_argument if `pixels` has not one entry per facet or `limit` is not positive.
+TriangleMesh subdivide(const TriangleMesh& mesh,
+                       const std::vector<double>& pixels,
+                       double limit,
+                       std::vector<std::uint32_t>* parents = nullptr);
 
 }  // namespace facet_mapping

@@ -5,6 +5,7 @@
 // missed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -22,7 +23,11 @@ namespace facet_mapping {
 
 class MapMeshInput {
  public:
-  MapMeshInput(ros::NodeHandle nh, const std::string& map_frame, NodeDiagnostics* diagnostics);
+  /// `on_update` is called after each update, in the thread that received it.
+  MapMeshInput(ros::NodeHandle nh,
+               const std::string& map_frame,
+               NodeDiagnostics* diagnostics,
+               std::function<void()> on_update);
 
   /// The newest mesh; null before the first. Welded on demand and kept. Thread-safe.
   MeshStatePtr mesh();
@@ -38,6 +43,7 @@ class MapMeshInput {
 
   std::string map_frame_;
   NodeDiagnostics* diagnostics_;
+  std::function<void()> on_update_;
   std::string topic_;
   std::mutex mutex_;  // guards the receiver and the cache
   MeshReceiver receiver_;

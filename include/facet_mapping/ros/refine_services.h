@@ -4,7 +4,6 @@
 // ~refine, ~cancel_refine, ~relabel and ~progress of the refiner.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,20 +20,20 @@
 #include "facet_mapping/ros/long_job.h"
 #include "facet_mapping/ros/mesh_publisher.h"
 #include "facet_mapping/ros/node_diagnostics.h"
+#include "facet_mapping/ros/refined_map.h"
 
 namespace facet_mapping {
 
 class RefineServices {
  public:
   struct Sources {
-    std::function<MeshStatePtr()> map_mesh;  ///< the mapper's newest mesh, or null
+    RefinedMap* meshes = nullptr;  ///< the mapper's and the refined one
     std::string map_mesh_topic;
     std::string image_topic;
     const tf2_ros::Buffer* tf = nullptr;  ///< for the frame of a request's region
     const KeyframeStore* keyframes = nullptr;
     MeshPublisher* refined = nullptr;
     NodeDiagnostics* diagnostics = nullptr;
-    std::function<void()> on_result;  ///< after a new refined mesh
   };
 
   /// The services run in threads of their own, so that mapping goes on meanwhile.
@@ -51,14 +50,15 @@ class RefineServices {
   bool cancel(CancelRefine::Request& request, CancelRefine::Response& response);
 
   Task prepare(const Refine::Request& request) const;
-  MeshStatePtr start_mesh(const Refine::Request& request) const;
+  RefineStart start_mesh(const Refine::Request& request) const;
   MeshStatePtr mesh_of_request(const LabeledMesh& message) const;
   std::vector<LabeledView> require_views(std::size_t least, const std::string& problem) const;
+  /// Answers a dry run.
+  std::string estimate(const std::shared_ptr<Task>& task, Refine::Response* response);
   RefinementResult run(const Task& task, std::string* why_stopped);
   bool report_progress(const Task& task,
                        const RefinementProgress& progress,
                        std::string* why_stopped);
-  void publish_result(TriangleMesh mesh, const ros::Time& stamp);
 
   RefinementConfig defaults_;
   Sources sources_;

@@ -20,6 +20,7 @@
 #include "facet_mapping/ros/node_config.h"
 #include "facet_mapping/ros/node_diagnostics.h"
 #include "facet_mapping/ros/refine_services.h"
+#include "facet_mapping/ros/refined_map.h"
 #include "facet_mapping/ros/transform_queue.h"
 
 namespace facet_mapping {
@@ -40,7 +41,6 @@ class RefinerNode {
   void on_time_jump(double jump_s);
   void on_result();
   void forget_everything();
-  MeshStatePtr newest_mesh();
   bool reset(Reset::Request& request, Reset::Response& response);
   void refresh_diagnostics();
 
@@ -53,6 +53,7 @@ class RefinerNode {
   KeyframeStore keyframes_;
   MeshPublisher refined_;
   MeshServices mesh_services_;
+  RefinedMap meshes_;  // before the map's input, which tells it of updates
   MapMeshInput map_mesh_;
   LabelImagePublisher label_image_;
   std::mutex header_mutex_;
