@@ -127,16 +127,18 @@ double criterion(const Components& components, const Directions& directions, dou
          mean_log_density(components, directions);
 }
 
-bool any_negligible(const Components& components) {
-  return std::any_of(components.begin(), components.end(), [](const DirectionComponent& c) {
-    return c.weight < kLeastWeight;
-  });
+double least_weight(const Components& components) {
+  return std::min_element(components.begin(),
+                          components.end(),
+                          [](const auto& a, const auto& b) { return a.weight < b.weight; })
+      ->weight;
 }
 
 }  // namespace
 
 std::vector<DirectionComponent> fit_directions(const std::vector<Eigen::Vector3d>& directions,
                                                double observations,
+                                               double least,
                                                double largest_concentration) {
   const Components uniform{{Eigen::Vector3d::UnitZ(), kLeastConcentration, 1.0}};
   Components best = improved(uniform, directions, largest_concentration);
@@ -145,7 +147,7 @@ std::vector<DirectionComponent> fit_directions(const std::vector<Eigen::Vector3d
     const Components next =
         converged(with_candidate(best, directions), directions, largest_concentration);
     const double value = criterion(next, directions, observations);
-    if (value >= lowest || any_negligible(next)) {
+    if (value >= lowest || least_weight(next) < std::max(kLeastWeight, least / observations)) {
       break;
     }
     lowest = value;

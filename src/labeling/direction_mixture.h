@@ -19,9 +19,11 @@ struct DirectionComponent {
 constexpr std::size_t kMostDirections = 6;
 
 /// As many components, at most kMostDirections, as the Bayesian information criterion asks for if
-/// the unit vectors stand for `observations` independent ones. `directions` must not be empty.
+/// the unit vectors stand for `observations` independent ones, of which each component must explain
+/// `least` where there is more than one. `directions` must not be empty.
 std::vector<DirectionComponent> fit_directions(const std::vector<Eigen::Vector3d>& directions,
                                                double observations,
+                                               double least,
                                                double largest_concentration);
 
 /// Share of each component in a direction, together 1.

@@ -3,6 +3,7 @@
 #include "labeling/local_orientation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "labeling/global_orientation.h"
 #include <tbb/parallel_for.h>
@@ -13,8 +14,31 @@ namespace {
 // Neighbourhoods are this many times larger than the patches that share them.
 constexpr int kPatchesAround = 16;
 
+// A patch of wrong labels would otherwise find its own orientation quite usual.
+constexpr double kGlobalShare = 0.25;
+
 std::size_t patch_size(const LabelingConfig& config) {
   return static_cast<std::size_t>(std::max(config.local_facets / kPatchesAround, 1));
+}
+
+/// The local orientation, held back by the global one as if that were `more` facets more.
+ClassOrientation held_back(const ClassOrientation& local,
+                           const ClassOrientation& global,
+                           double facets,
+                           double more) {
+  if (local.mean.isZero(0.0) || global.mean.isZero(0.0)) {
+    return local;
+  }
+  const double own = facets / (facets + more);
+  const Eigen::Vector3d sum = own * local.mean + (1.0 - own) * global.mean;
+  if (!is_directed(sum, 1.0)) {
+    return local;
+  }
+  const auto square = [&](const ClassOrientation& part) {
+    const double turn = angle_between(sum.normalized(), part.mean);
+    return part.sigma_rad * part.sigma_rad + turn * turn;
+  };
+  return {sum.normalized(), std::sqrt(own * square(local) + (1.0 - own) * square(global))};
 }
 
 }  // namespace
@@ -33,7 +57,10 @@ LocalOrientation::LocalOrientation(const ClassFacets& facets,
       orientations_[p * own.size() + k] =
           own[k].size() < least
               ? global[k]
-              : fit_orientation(facets.normals(), own[k], least_sigma_rad(config));
+              : held_back(fit_orientation(facets.normals(), own[k], least_sigma_rad(config)),
+                          global[k],
+                          static_cast<double>(own[k].size()),
+                          kGlobalShare * config.local_facets);
     }
   });
   normalise(facets);

@@ -13,7 +13,8 @@
 namespace facet_mapping {
 
 /// As the global form, with each class's mean direction and deviation from the facets around (see
-/// local_facets); where fewer than min_normal_facets of them have the class, from all of the mesh.
+/// local_facets) and, as if they were a quarter of a neighbourhood more, from all of the mesh; from
+/// the latter alone where fewer than min_normal_facets around have the class.
 class LocalOrientation : public OrientationModel {
  public:
   LocalOrientation(const ClassFacets& facets,

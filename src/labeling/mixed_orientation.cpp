@@ -17,12 +17,28 @@ using Normals = std::vector<Eigen::Vector3d>;
 // Enough for a few directions, and few enough that large classes take no longer than small ones.
 constexpr std::size_t kSamples = 2048;
 
+// Where normals look all ways alike, P / a^2 is with this deviation what it is with others.
+constexpr double kAllWaysSigmaRad = 1.57;
+
+constexpr int kShiftSteps = 60;  // bisections, down to rounding
+
 double total_area(const Normals& normals, const FacetList& facets) {
   double area = 0.0;
   for (const std::uint32_t f : facets) {
     area += normals[f].norm();
   }
   return area;
+}
+
+/// As many facets of equal area would say as much about means (Kish 1965): a few large facets and
+/// many specks are few.
+double effective_count(const Normals& normals, const FacetList& facets) {
+  double squares = 0.0;
+  for (const std::uint32_t f : facets) {
+    squares += normals[f].squaredNorm();
+  }
+  const double area = total_area(normals, facets);
+  return area * area / squares;
 }
 
 /// Unit normals at equal steps of the area, facet after facet.
@@ -53,80 +69,110 @@ void for_each_share(const Normals& normals,
   }
 }
 
-/// Directions and weights from all facets, not from the samples alone. Returns what the facets pay
-/// on average to the directions that they belong to.
-double fill_directions(const Normals& normals,
-                       const FacetList& facets,
-                       const std::vector<DirectionComponent>& components,
-                       double least_sigma_rad,
-                       OrientationMixture* mixture) {
+/// Directions and weights from all facets, not from the samples alone.
+OrientationMixture make_mixture(const Normals& normals,
+                                const FacetList& facets,
+                                const std::vector<DirectionComponent>& components,
+                                double least_sigma_rad) {
   Normals sums(components.size(), Eigen::Vector3d::Zero());
   std::vector<double> areas(components.size(), 0.0);
   for_each_share(normals, facets, components, [&](std::size_t j, const auto& normal, double share) {
     sums[j] += share * normal;
     areas[j] += share * normal.norm();
   });
-  mixture->directions.resize(components.size());
-  for (std::size_t j = 0; j < components.size(); ++j) {
-    if (is_directed(sums[j], areas[j])) {
-      mixture->directions[j] = {sums[j].normalized(), 1.0};
-    }
-  }
-  // With a deviation of 1 rad the cost is half the squared angle.
-  std::vector<double> costs(components.size(), 0.0);
+  std::vector<double> squares(components.size(), 0.0);
   for_each_share(normals, facets, components, [&](std::size_t j, const auto& normal, double share) {
-    costs[j] += share * normal.norm() * deviation_cost(mixture->directions[j], normal);
+    const double angle = angle_between(sums[j].normalized(), normal);
+    squares[j] += share * normal.norm() * angle * angle;
   });
+  OrientationMixture mixture;
   const double area = total_area(normals, facets);
-  double mean_cost = 0.0;
   for (std::size_t j = 0; j < components.size(); ++j) {
-    ClassOrientation& direction = mixture->directions[j];
-    if (!direction.mean.isZero(0.0)) {
-      direction.sigma_rad = std::max(std::sqrt(2.0 * costs[j] / areas[j]), least_sigma_rad);
-      costs[j] /= direction.sigma_rad * direction.sigma_rad;
-    }
-    mixture->weights.push_back(areas[j] / area);
-    mean_cost += costs[j] / area;
+    mixture.weights.push_back(areas[j] / area);
+    const double sigma = std::max(std::sqrt(squares[j] / areas[j]), least_sigma_rad);
+    mixture.directions.push_back(is_directed(sums[j], areas[j])
+                                     ? ClassOrientation{sums[j].normalized(), sigma}
+                                     : ClassOrientation{{0, 0, 0}, kAllWaysSigmaRad});
   }
-  return mean_cost;
+  return mixture;
 }
 
-double log_density(const OrientationMixture& mixture, const Eigen::Vector3d& normal) {
+/// Without mixture.shift, nats.
+double relative_cost(const OrientationMixture& mixture, const Eigen::Vector3d& normal) {
   double sum = std::numeric_limits<double>::min();
   for (std::size_t j = 0; j < mixture.directions.size(); ++j) {
-    sum += mixture.weights[j] * std::exp(-deviation_cost(mixture.directions[j], normal));
+    const ClassOrientation& direction = mixture.directions[j];
+    sum += mixture.weights[j] / (direction.sigma_rad * direction.sigma_rad) *
+           std::exp(-deviation_cost(direction, normal));
   }
-  return std::log(sum);
+  return -std::log(sum);
+}
+
+/// What the facets pay on average to the directions that they belong to.
+double mean_cost(const Normals& normals,
+                 const FacetList& facets,
+                 const std::vector<DirectionComponent>& components,
+                 const OrientationMixture& mixture,
+                 double dearest) {
+  double sum = 0.0;
+  for_each_share(normals, facets, components, [&](std::size_t j, const auto& normal, double share) {
+    const double cost = std::min(deviation_cost(mixture.directions[j], normal), dearest);
+    sum += share * normal.norm() * cost;
+  });
+  return sum / total_area(normals, facets);
+}
+
+/// The shift of `costs` with which they are `target` on average between 0 and `dearest`.
+double shift_to_mean(const std::vector<double>& costs,
+                     const std::vector<double>& shares,
+                     double dearest,
+                     double target) {
+  const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+  double low = -*most;
+  double high = dearest - *least;
+  for (int step = 0; step < kShiftSteps; ++step) {
+    const double shift = 0.5 * (low + high);
+    double mean = 0.0;
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      mean += shares[k] * std::clamp(costs[k] + shift, 0.0, dearest);
+    }
+    (mean < target ? low : high) = shift;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace
-
 OrientationMixture fit_mixture(const Normals& normals,
                                const FacetList& facets,
-                               double least_sigma_rad) {
-  OrientationMixture mixture;
+                               const LabelingConfig& config) {
   if (facets.empty()) {
-    return mixture;
+    return {};
   }
+  const double least_sigma = least_sigma_rad(config);
   // For small angles the mean squared angle is 2 / concentration.
   const std::vector<DirectionComponent> components =
       fit_directions(area_samples(normals, facets),
-                     static_cast<double>(std::min(facets.size(), kSamples)),
-                     2.0 / (least_sigma_rad * least_sigma_rad));
-  const double mean_cost = fill_directions(normals, facets, components, least_sigma_rad, &mixture);
+                     std::min(effective_count(normals, facets), static_cast<double>(kSamples)),
+                     static_cast<double>(config.min_normal_facets),
+                     2.0 / (least_sigma * least_sigma));
+  OrientationMixture mixture = make_mixture(normals, facets, components, least_sigma);
   const double area = total_area(normals, facets);
-  double mean_log = 0.0;
+  std::vector<double> costs;
+  std::vector<double> shares;
   for (const std::uint32_t f : facets) {
-    mean_log += normals[f].norm() / area * log_density(mixture, normals[f]);
+    costs.push_back(relative_cost(mixture, normals[f]));
+    shares.push_back(normals[f].norm() / area);
   }
-  mixture.log_scale = -mean_cost - mean_log;
+  const double dearest = dearest_cost(config);
+  const double target = mean_cost(normals, facets, components, mixture, dearest);
+  mixture.shift = shift_to_mean(costs, shares, dearest, target);
   return mixture;
 }
 
 MixedOrientation::MixedOrientation(const ClassFacets& facets, const LabelingConfig& config)
     : mixtures_(facets.all().size()) {
   tbb::parallel_for(std::size_t{0}, mixtures_.size(), [&](std::size_t k) {
-    mixtures_[k] = fit_mixture(facets.normals(), facets.all()[k], least_sigma_rad(config));
+    mixtures_[k] = fit_mixture(facets.normals(), facets.all()[k], config);
   });
 }
 
@@ -135,7 +181,7 @@ double MixedOrientation::cost(std::size_t /*facet*/,
                               std::size_t index) const {
   const OrientationMixture& mixture = mixtures_[index];
   return mixture.directions.empty() ? kMeanOrientationCost
-                                    : -mixture.log_scale - log_density(mixture, normal);
+                                    : relative_cost(mixture, normal) + mixture.shift;
 }
 
 }  // namespace facet_mapping

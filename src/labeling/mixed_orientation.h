@@ -10,18 +10,20 @@
 
 namespace facet_mapping {
 
-/// P(n) = c sum_j w_j exp(-angle(n, m_j)^2 / (2 a_j^2)) with c such that the class's own facets pay
-/// on average what they pay to the direction that they belong to: 1/2, as with one direction, to
-/// which it comes down where one is enough.
+/// -log P(n) = shift - log sum_j w_j / a_j^2 exp(-angle(n, m_j)^2 / (2 a_j^2)), the sum being a
+/// density on the sphere. The shift stands for what the form with one direction leaves out, the
+/// density's scale: with it the class's own facets pay on average what they pay to the direction
+/// that they belong to, 1/2 at most. With one direction it is the global form.
 struct OrientationMixture {
   std::vector<ClassOrientation> directions;  ///< none if the class has no prior
   std::vector<double> weights;               ///< shares of the class's area
-  double log_scale = 0.0;                    ///< log c
+  double shift = 0.0;                        ///< nats
 };
 
+/// Classes and directions need at least min_normal_facets facets of equal area or the like.
 OrientationMixture fit_mixture(const std::vector<Eigen::Vector3d>& normals,
                                const FacetList& facets,
-                               double least_sigma_rad);
+                               const LabelingConfig& config);
 
 class MixedOrientation : public OrientationModel {
  public:

@@ -33,12 +33,16 @@ double orientation_cost(const OrientationModel& model,
   if (normal.isZero(0.0)) {
     return 0.0;
   }
-  return std::clamp(model.cost(facet, normal, index), 0.0, -std::log(config.normal_floor));
+  return std::clamp(model.cost(facet, normal, index), 0.0, dearest_cost(config));
 }
 
 double least_sigma_rad(const LabelingConfig& config) {
   constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
   return config.min_normal_sigma_deg * kRadiansPerDegree;
+}
+
+double dearest_cost(const LabelingConfig& config) {
+  return -std::log(config.normal_floor);
 }
 
 }  // namespace facet_mapping

@@ -48,4 +48,7 @@ double orientation_cost(const OrientationModel& model,
 /// min_normal_sigma_deg in rad.
 double least_sigma_rad(const LabelingConfig& config);
 
+/// -log normal_floor, nats.
+double dearest_cost(const LabelingConfig& config);
+
 }  // namespace facet_mapping

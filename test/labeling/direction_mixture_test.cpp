@@ -11,6 +11,8 @@
 namespace facet_mapping {
 namespace {
 
+constexpr double kLeast = 20.0;
+
 const std::vector<Eigen::Vector3d> kKnown{Eigen::Vector3d::UnitX(),
                                           Eigen::Vector3d(0, 0.6, 0.8),
                                           -Eigen::Vector3d::UnitX(),
@@ -36,8 +38,8 @@ double largest_concentration() {
 TEST(DirectionMixture, FindsTheKnownDirectionsAndTheirShares) {
   for (std::size_t known = 1; known <= kKnown.size(); ++known) {
     const auto directions = around_known(known, 200, 7.0);
-    const auto components =
-        fit_directions(directions, static_cast<double>(directions.size()), largest_concentration());
+    const auto components = fit_directions(
+        directions, static_cast<double>(directions.size()), kLeast, largest_concentration());
     ASSERT_EQ(components.size(), known);
     for (std::size_t j = 0; j < known; ++j) {
       const auto nearest = *std::max_element(
@@ -56,7 +58,7 @@ TEST(DirectionMixture, EqualInAllDirectionsIsOneWideComponent) {
   std::mt19937 random(3);
   std::vector<Eigen::Vector3d> directions(1000);
   std::generate(directions.begin(), directions.end(), [&] { return test::random_unit(&random); });
-  const auto components = fit_directions(directions, 1000.0, largest_concentration());
+  const auto components = fit_directions(directions, 1000.0, kLeast, largest_concentration());
   ASSERT_EQ(components.size(), 1U);
   EXPECT_LT(components[0].concentration, 0.3);
 }
@@ -70,13 +72,19 @@ TEST(DirectionMixture, FewerObservationsAskForFewerComponents) {
     directions.push_back(
         test::near_direction({std::sin(angle), 0.0, std::cos(angle)}, 7.0, &random));
   }
-  EXPECT_EQ(fit_directions(directions, 20.0, largest_concentration()).size(), 1U);
-  EXPECT_GT(fit_directions(directions, 1000.0, largest_concentration()).size(), 1U);
+  EXPECT_EQ(fit_directions(directions, 20.0, 0.0, largest_concentration()).size(), 1U);
+  EXPECT_GT(fit_directions(directions, 1000.0, 0.0, largest_concentration()).size(), 1U);
+}
+
+TEST(DirectionMixture, DirectionsThatTooFewAskForAreLeftOut) {
+  const auto directions = around_known(2, 100, 7.0);
+  EXPECT_EQ(fit_directions(directions, 300.0, 90.0, largest_concentration()).size(), 2U);
+  EXPECT_EQ(fit_directions(directions, 300.0, 110.0, largest_concentration()).size(), 1U);
 }
 
 TEST(DirectionMixture, SharesAddUpAndFarDirectionsHaveAFiniteOne) {
   const auto directions = around_known(3, 100, 5.0);
-  const auto components = fit_directions(directions, 400.0, largest_concentration());
+  const auto components = fit_directions(directions, 400.0, kLeast, largest_concentration());
   for (const Eigen::Vector3d& unit : kKnown) {
     const std::vector<double> shares = component_shares(components, unit);
     double sum = 0.0;
@@ -89,7 +97,7 @@ TEST(DirectionMixture, SharesAddUpAndFarDirectionsHaveAFiniteOne) {
 }
 
 TEST(DirectionMixture, OneDirectionAloneIsFitted) {
-  const auto components = fit_directions({Eigen::Vector3d::UnitY()}, 1.0, 50.0);
+  const auto components = fit_directions({Eigen::Vector3d::UnitY()}, 1.0, kLeast, 50.0);
   ASSERT_EQ(components.size(), 1U);
   EXPECT_EQ(components[0].concentration, 50.0);
   EXPECT_EQ(components[0].mean, Eigen::Vector3d::UnitY());

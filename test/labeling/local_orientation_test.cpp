@@ -115,17 +115,21 @@ TEST(LocalOrientation, FarFromAClassItsGlobalDirectionHolds) {
   }
 }
 
-TEST(LocalOrientation, OwnFacetsPayAtMostOneHalfOnAverage) {
+TEST(LocalOrientation, OwnFacetsPayOneHalfOnAverage) {
   Scene scene = climbing_road();
   std::mt19937 random(3);
   for (Eigen::Vector3d& normal : scene.normals) {
     normal = normal.norm() * test::near_direction(normal.normalized(), 25.0, &random);
   }
+  test::OrientedFacets facets;
+  facets.normals = scene.normals;
+  facets.labels = scene.labels;
+  LabelingConfig config;
+  config.normal_floor = 1e-6;
   for (const int size : {30, 200, 3000}) {
-    const LocalOrientation model = scene.local_model(size);
-    const double cost = test::own_cost(model, scene.normals, scene.labels, 0);
+    const double cost = test::own_cost(scene.local_model(size), facets, 0, config);
     EXPECT_LE(cost, 0.5 + 1e-9);
-    EXPECT_GT(cost, 0.45);
+    EXPECT_GT(cost, 0.4);  // less, as the whole mesh adds to the deviations
   }
 }
 

@@ -69,17 +69,18 @@ inline LabelingConfig with_prior(OrientationPrior prior) {
   return config;
 }
 
-/// Area-weighted mean of what the facets of a class pay for it, the floor left out.
+/// Area-weighted mean of what the facets of a class pay for it.
 inline double own_cost(const OrientationModel& model,
-                       const std::vector<Eigen::Vector3d>& normals,
-                       const std::vector<ClassIndex>& labels,
-                       ClassIndex index) {
+                       const OrientedFacets& facets,
+                       ClassIndex index,
+                       const LabelingConfig& config) {
   double sum = 0.0;
   double area = 0.0;
-  for (std::size_t f = 0; f < normals.size(); ++f) {
-    if (labels[f] == index) {
-      sum += normals[f].norm() * model.cost(f, normals[f], index);
-      area += normals[f].norm();
+  for (std::size_t f = 0; f < facets.normals.size(); ++f) {
+    if (facets.labels[f] == index) {
+      const Eigen::Vector3d& normal = facets.normals[f];
+      sum += normal.norm() * orientation_cost(model, f, normal, index, config);
+      area += normal.norm();
     }
   }
   return sum / area;

@@ -43,7 +43,7 @@ struct LabelingConfig {
   double normal_floor = 0.2;   ///< of the orientation probability: no prior outvotes all images
   double min_normal_sigma_deg = 10.0;  ///< least angular deviation that a class is credited with
   int min_normal_facets = 20;          ///< classes with fewer facets have no orientation prior
-  int local_facets = 1000;             ///< size of a neighbourhood of OrientationPrior::kLocal
+  int local_facets = 4000;             ///< size of a neighbourhood of OrientationPrior::kLocal
   double smooth_equal = 0.8;           ///< pairwise probability of equal labels
   double smooth_different = 0.2;       ///< pairwise probability of different labels
   double own_label_weight =
