@@ -5,84 +5,113 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <utility>
-#include <vector>
+#include <stdexcept>
 
-#ifdef __clang_analyzer__
-#define CGAL_DO_NOT_USE_MPZF  // the analyser takes how it keeps its digits for an error
-#endif
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include "box_tree.h"
+#include "facets_cross.h"
 
 namespace facet_mapping {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using FacetPair = std::pair<Surface::Face_index, Surface::Face_index>;
+TreeBox box_of(const TriangleMesh& mesh, std::uint32_t facet, bool changed) {
+  const Triangle& t = mesh.triangles[facet];
+  const Eigen::Vector3d& a = mesh.vertices[t[0]];
+  const Eigen::Vector3d& b = mesh.vertices[t[1]];
+  const Eigen::Vector3d& c = mesh.vertices[t[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), facet, changed};
+}
 
-/// The mesh as CGAL wants it. A facet that would make it non-manifold gets corners of its own.
-struct Converted {
-  Surface surface;
-  std::vector<std::size_t> facets;  ///< of the mesh, per face
-  std::vector<bool> loose;          ///< per face: it has corners of its own
+/// What boxes cover along one axis, as ascending intervals that are apart.
+class Coverage {
+ public:
+  void add(double low, double high) { intervals_.emplace_back(low, high); }
+
+  void merge() {
+    std::sort(intervals_.begin(), intervals_.end());
+    std::vector<std::pair<double, double>> merged;
+    for (const auto& [low, high] : intervals_) {
+      if (merged.empty() || low > merged.back().second) {
+        merged.emplace_back(low, high);
+      }
+      merged.back().second = std::max(merged.back().second, high);
+    }
+    intervals_ = std::move(merged);
+  }
+
+  bool meets(double low, double high) const {
+    const auto next = std::upper_bound(
+        intervals_.begin(), intervals_.end(), high, [](double value, const auto& interval) {
+          return value < interval.first;
+        });
+    return next != intervals_.begin() && std::prev(next)->second >= low;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> intervals_;
 };
 
-void add_facet(const TriangleMesh& mesh, std::size_t facet, Converted* to) {
-  const Triangle& t = mesh.triangles[facet];
-  std::array<Surface::Vertex_index, 3> corners;
-  for (int k = 0; k < 3; ++k) {
-    corners[k] = Surface::Vertex_index(t[k]);
-  }
-  const bool fits = to->surface.add_face(corners[0], corners[1], corners[2]).is_valid();
-  if (!fits) {
-    for (Surface::Vertex_index& corner : corners) {
-      const Kernel::Point_3 point = to->surface.point(corner);
-      corner = to->surface.add_vertex(point);
+/// Mostly few facets have changed: leaves those and what may be near one of them.
+void remove_far(std::vector<TreeBox>* boxes) {
+  std::array<Coverage, 3> covered;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const TreeBox& box : *boxes) {
+      if (box.changed) {
+        covered[axis].add(box.low[axis], box.high[axis]);
+      }
     }
-    to->surface.add_face(corners[0], corners[1], corners[2]);
+    covered[axis].merge();
   }
-  to->facets.push_back(facet);
-  to->loose.push_back(!fits);
-}
-
-Converted convert(const TriangleMesh& mesh) {
-  Converted converted;
-  const std::size_t facets = mesh.triangles.size();
-  converted.surface.reserve(mesh.vertices.size(), 2 * facets, facets);
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    converted.surface.add_vertex({v.x(), v.y(), v.z()});
-  }
-  for (std::size_t f = 0; f < facets; ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
-      add_facet(mesh, f, &converted);
-    }
-  }
-  return converted;
-}
-
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(
-      a.begin(), a.end(), [&b](std::uint32_t v) { return v == b[0] || v == b[1] || v == b[2]; });
+  const auto is_far = [&covered](const TreeBox& box) {
+    return !(covered[0].meets(box.low[0], box.high[0]) &&
+             covered[1].meets(box.low[1], box.high[1]) &&
+             covered[2].meets(box.low[2], box.high[2]));
+  };
+  boxes->erase(std::remove_if(boxes->begin(), boxes->end(), is_far), boxes->end());
 }
 
 }  // namespace
 
-std::size_t count_self_intersections(const TriangleMesh& mesh) {
+std::vector<FacetPair> find_self_intersections(const TriangleMesh& mesh,
+                                               const std::vector<std::uint8_t>& changed) {
   validate(mesh);
-  const Converted converted = convert(mesh);
+  if (!changed.empty() && changed.size() != mesh.triangles.size()) {
+    throw std::invalid_argument("find_self_intersections: give `changed` per facet or not at all");
+  }
+  std::vector<TreeBox> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    boxes.push_back(box_of(mesh, f, changed.empty() || changed[f] != 0));
+  }
+  if (!changed.empty()) {
+    remove_far(&boxes);
+  }
+  boxes.erase(std::remove_if(boxes.begin(),
+                             boxes.end(),
+                             [&](const TreeBox& box) { return is_degenerate(mesh, box.id); }),
+              boxes.end());
   std::vector<FacetPair> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
-      converted.surface, std::back_inserter(pairs));
-  return static_cast<std::size_t>(
-      std::count_if(pairs.begin(), pairs.end(), [&](const FacetPair& pair) {
-        const auto [a, b] = pair;
-        const bool by_mesh = !converted.loose[a] && !converted.loose[b];
-        return a != b && (by_mesh || !share_a_vertex(mesh.triangles[converted.facets[a]],
-                                                     mesh.triangles[converted.facets[b]]));
-      }));
+  BoxTree(std::move(boxes)).visit_overlaps([&](std::uint32_t f, std::uint32_t g) {
+    if (facets_cross(mesh, f, g)) {
+      pairs.emplace_back(std::minmax(f, g));
+    }
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<FacetPair> keep_crossing(const TriangleMesh& mesh,
+                                     const std::vector<FacetPair>& pairs) {
+  std::vector<FacetPair> crossing;
+  std::copy_if(
+      pairs.begin(), pairs.end(), std::back_inserter(crossing), [&mesh](const FacetPair& pair) {
+        return !is_degenerate(mesh, pair.first) && !is_degenerate(mesh, pair.second) &&
+               facets_cross(mesh, pair.first, pair.second);
+      });
+  return crossing;
+}
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+  return find_self_intersections(mesh).size();
 }
 
 }  // namespace facet_mapping

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "facet_mapping/refinement/crossings.h"
 #include "facet_mapping/refinement/smoothing_weights.h"
 #include "facet_mapping/refinement/step.h"
 #include "facet_mapping/refinement/view_pairs.h"
@@ -198,7 +199,7 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
   const double others = label_energy(shape, pixels) + smoothing.energy(shape.mesh.vertices);
   VectorField step = find_step(shape, smoothing);
   for (int k = 0; k <= kHalvings; ++k) {
-    prevent_flips(shape.mesh, &step);
+    prevent_crossings(shape.mesh, shape.crossing, &step);
     TriangleMesh moved = shape.mesh;
     for (std::size_t v = 0; v < step.size(); ++v) {
       moved.vertices[v] += step[v];
@@ -214,6 +215,7 @@ std::optional<Shape> LevelProblem::improve(const Shape& shape) const {
       change += mean_change(shape.photometric, trial.photometric) * static_cast<double>(pixels);
     }
     if (change < 0.0) {
+      trial.crossing = keep_crossing(trial.mesh, shape.crossing);
       return trial;
     }
     for (Eigen::Vector3d& s : step) {

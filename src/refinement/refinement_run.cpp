@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "facet_mapping/refinement/crossings.h"
 #include "facet_mapping/refinement/image_pyramid.h"
 #include "facet_mapping/refinement/mesh_quality.h"
 #include "facet_mapping/refinement/subdivision.h"
@@ -110,7 +111,7 @@ void RefinementRun::split_facets(const LevelProblem& problem) {
   std::vector<double> pixels = best_view_pixels(current_, problem.render(current_));
   const std::vector<std::uint8_t> inside = facets_of_part(current_, config_.part);
   std::transform(pixels.begin(), pixels.end(), inside.begin(), pixels.begin(), std::multiplies<>());
-  current_ = subdivide(current_, pixels, config_.subdivide_px);
+  current_ = subdivide_beside_crossings(current_, std::move(pixels), config_.subdivide_px);
   if (config_.relabel && has_segmentation() && current_.triangles.size() != facets) {
     relabel(&current_);
   }
@@ -123,6 +124,7 @@ bool RefinementRun::iterate(int level, LevelProblem* problem) {
   }
   Shape shape = problem->evaluate(std::move(current_), true);
   problem->start(shape);
+  shape.crossing = find_self_intersections(shape.mesh);
   bool go_on = true;
   for (int k = 0; k < config_.iterations && go_on; ++k) {
     std::optional<Shape> improved = problem->improve(shape);

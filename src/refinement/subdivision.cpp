@@ -28,9 +28,10 @@ class SplitRound {
   /// Marks the long sides of every facet above the limit; false if there is none.
   bool mark(const std::vector<double>& pixels, double limit) {
     constexpr double kLongShare = 0.5;  // of the longest side, squared lengths
+    constexpr double kRounding = 1e-9;  // shares are often just the limit: half of twice as much
     bool any = false;
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      if (pixels[f] <= limit) {
+      if (pixels[f] <= (1.0 + kRounding) * limit) {
         continue;
       }
       const double longest = squared_length_[longest_edge(f)];

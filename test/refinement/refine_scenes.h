@@ -52,6 +52,57 @@ inline Scene wavy_plane() {
 
 constexpr double kBallRadius = 1.5;
 
+/// Gives every view the class that `class_of` says of the point that a pixel shows; 0 for nothing.
+template <typename ClassOf>
+void segment(const Surface& surface, const ClassOf& class_of, std::vector<LabeledView>* views) {
+  for (LabeledView& view : *views) {
+    view.labels = cv::Mat(view.gray.size(), CV_16UC1, cv::Scalar(0));
+    for (int y = 0; y < view.labels.rows; ++y) {
+      for (int x = 0; x < view.labels.cols; ++x) {
+        const Eigen::Vector3d direction =
+            view.view.world_from_cam.linear() *
+            view.view.camera.ray({static_cast<double>(x), static_cast<double>(y)});
+        if (const auto hit = surface(view.view.center(), direction)) {
+          view.labels.at<Label>(y, x) = class_of(*hit);
+        }
+      }
+    }
+  }
+}
+
+/// Root mean square of `error` (metres) over the vertices well inside all images, in pixels of
+/// parallax.
+template <typename Inside, typename Error>
+double rms_px(const TriangleMesh& mesh, double px_per_m, const Inside& inside, const Error& error) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (inside(v)) {
+      sum += std::pow(error(v) * px_per_m, 2);
+      ++count;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+inline double plane_error_px(const Scene& scene, const TriangleMesh& mesh) {
+  return rms_px(
+      mesh,
+      scene.parallax_px_per_m,
+      [](const Eigen::Vector3d& v) { return std::abs(v.x()) < 0.8 && std::abs(v.y()) < 0.6; },
+      [](const Eigen::Vector3d& v) { return v.z(); });
+}
+
+inline double ball_error_px(const Scene& scene, const TriangleMesh& mesh) {
+  return rms_px(
+      mesh,
+      scene.parallax_px_per_m,
+      [](const Eigen::Vector3d& v) {
+        return v.z() > 0.0 && std::abs(v.x()) < 0.7 && std::abs(v.y()) < 0.6;
+      },
+      [](const Eigen::Vector3d& v) { return v.norm() - kBallRadius; });
+}
+
 /// A closed ball with bumps of about one pixel of parallax, seen from one side.
 inline Scene bumpy_ball(int subdivisions) {
   Scene scene;

@@ -13,40 +13,9 @@
 namespace facet_mapping {
 namespace {
 
+using test::ball_error_px;
+using test::plane_error_px;
 using test::Scene;
-
-/// Root mean square of `error` (metres) over the vertices well inside all images, in pixels of
-/// parallax.
-template <typename Inside, typename Error>
-double rms_px(const TriangleMesh& mesh, double px_per_m, const Inside& inside, const Error& error) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    if (inside(v)) {
-      sum += std::pow(error(v) * px_per_m, 2);
-      ++count;
-    }
-  }
-  return std::sqrt(sum / count);
-}
-
-double plane_error_px(const Scene& scene, const TriangleMesh& mesh) {
-  return rms_px(
-      mesh,
-      scene.parallax_px_per_m,
-      [](const Eigen::Vector3d& v) { return std::abs(v.x()) < 0.8 && std::abs(v.y()) < 0.6; },
-      [](const Eigen::Vector3d& v) { return v.z(); });
-}
-
-double ball_error_px(const Scene& scene, const TriangleMesh& mesh) {
-  return rms_px(
-      mesh,
-      scene.parallax_px_per_m,
-      [](const Eigen::Vector3d& v) {
-        return v.z() > 0.0 && std::abs(v.x()) < 0.7 && std::abs(v.y()) < 0.6;
-      },
-      [](const Eigen::Vector3d& v) { return v.norm() - test::kBallRadius; });
-}
 
 TEST(RefinePhotometric, PlaneReturnsToTheTruth) {
   const Scene scene = test::wavy_plane();

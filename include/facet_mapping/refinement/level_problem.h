@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "facet_mapping/geometry/mesh.h"
+#include "facet_mapping/geometry/self_intersections.h"
 #include "facet_mapping/labels/label_set.h"
 #include "facet_mapping/labels/labeled_view.h"
 #include "facet_mapping/refinement/pairwise_semantic.h"
@@ -26,6 +27,7 @@ struct Shape {
   SemanticEnergy semantic;
   std::vector<SemanticGate> gates;
   PairwiseSemanticEnergy pairwise;  ///< in that mode only
+  std::vector<FacetPair> crossing;  ///< facets that cross: kept by the iterations, which add none
 
   EnergyTerms terms() const { return {photometric.mean(), semantic.mean()}; }
 };
@@ -54,7 +56,8 @@ class LevelProblem {
   void start(const Shape& shape);
 
   /// One iteration: a step that lowers the total energy, halved until it does; nothing if none was
-  /// found, that is, the shape is at a minimum.
+  /// found, that is, the shape is at a minimum. No pair of facets crosses afterwards that is not in
+  /// the shape's list.
   std::optional<Shape> improve(const Shape& shape) const;
 
   /// What the segmentations add to the energy of a shape, in the units of a photometric sum over

@@ -32,8 +32,8 @@ struct QualityReport {
 /// this makes their smallest angle larger. Each such step makes the smallest angle of the facets
 /// around it larger. Vertices only vanish, none moves. A closed 2-manifold stays one of the same
 /// genus; open borders and non-manifold places stay as they are, and so does, up to `max_drift`,
-/// the border between classes and between seen surface and gaps. Facets that survive keep their
-/// attributes. Facets with `may_change` zero are left alone (none given: all may change). Takes
+/// the border between classes and between seen surface and gaps. No pair of facets crosses
+/// afterwards that did not before. Facets that survive keep their attributes. Facets with `may_change` zero are left alone (none given: all may change). Takes
 /// about linear time. Throws std::invalid_argument if the mesh is invalid or `may_change` is not
 /// empty and has not one entry per facet.
 TriangleMesh improve_quality(const TriangleMesh& mesh,
