@@ -1,5 +1,6 @@
 """The runs of scripts/paper_tables, which is the one to call."""
 import argparse
+import concurrent.futures
 import json
 import os
 import sys
@@ -48,11 +49,14 @@ def score_given_start(options, case, start):
     """Scores from the given start, and from seeded perturbations of it for the spread."""
     folder = os.path.join(options.output, "meshes", case["key"])
     os.makedirs(folder, exist_ok=True)
-    case["given"] = score_start(options, case, start, 0, folder)
-    case["samples"] = []
-    for seed in range(1, options.seeds + 1):
+
+    def score(seed):
+        if not seed:
+            return score_start(options, case, start, 0, folder)
         with tempfile.TemporaryDirectory(dir=options.output) as scratch:
-            case["samples"].append(score_start(options, case, start, seed, scratch))
+            return score_start(options, case, start, seed, scratch)
+
+    case["given"], *case["samples"] = options.pool.map(score, range(options.seeds + 1))
     return case
 
 
@@ -128,25 +132,30 @@ def score_street(options, level, seed):
         return score_start(options, case, start, 0, folder)
 
 
-def street_case(options, level, streets):
-    """All seeds at one level of noise; `streets` keeps what was run, for another part."""
-    for seed in range(1, max(options.seeds, 1) + 1):
-        if (level, seed) not in streets:
-            say("street %d, label noise %g" % (seed, level))
-            streets[level, seed] = score_street(options, level, seed)
-    return {"key": "street_%g" % level, "title": "Synthetic street, label noise %g" % level,
-            "note": "Mean over streets of 20 frames, start mesh from stereo, exact ground truth "
-                    "nearer than 30 m.",
-            "samples": [streets[level, seed] for seed in range(1, max(options.seeds, 1) + 1)]}
+def street_cases(options, levels, streets):
+    """All seeds at levels of noise; `streets` keeps what was run, for another part."""
+    seeds = range(1, max(options.seeds, 1) + 1)
+
+    def score(key):
+        say("street %d, label noise %g" % key[::-1])
+        return score_street(options, *key)
+
+    missing = [(level, seed) for level in levels for seed in seeds if (level, seed) not in streets]
+    streets.update(zip(missing, options.pool.map(score, missing)))
+    return [{"key": "street_%g" % level, "title": "Synthetic street, label noise %g" % level,
+             "note": "Mean over streets of 20 frames, start mesh from stereo, exact ground truth "
+                     "nearer than 30 m.",
+             "samples": [streets[level, seed] for seed in seeds]} for level in levels]
 
 
 def street(options, streets):
-    return [street_case(options, TABLE_NOISE_LEVEL, streets)]
+    return street_cases(options, [TABLE_NOISE_LEVEL], streets)
 
 
 def noise(options, streets):
     levels = QUICK_NOISE_LEVELS if options.quick else NOISE_LEVELS
-    return [dict(street_case(options, level, streets), noise_level=level) for level in levels]
+    return [dict(case, noise_level=level)
+            for case, level in zip(street_cases(options, levels, streets), levels)]
 
 
 PARTS = {"fountain": (fountain, "fountain_p11"), "fountain_fine": (fountain_fine, "fountain_p11"),
@@ -160,6 +169,7 @@ def parse_options():
     for name in ("--programs", "--data", "--labels", "--output"):
         parser.add_argument(name, required=True)
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
     if options.quick:
@@ -170,6 +180,7 @@ def parse_options():
 def main():
     options = parse_options()
     os.makedirs(options.output, exist_ok=True)
+    options.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
     reasons = {name: missing_data(options.data, PARTS[name][1]) for name in options.parts or PARTS}
     skipped = ["%s: %s" % one for one in reasons.items() if one[1]]
     for reason in skipped:

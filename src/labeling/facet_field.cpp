@@ -56,7 +56,7 @@ std::vector<ClassIndex> best_by_data(const TriangleMesh& mesh,
 
 void fill_unary(const TriangleMesh& mesh,
                 const Votes& votes,
-                const std::vector<ClassOrientation>& orientations,
+                const OrientationModel& orientation,
                 const std::vector<Eigen::Vector3d>& normals,
                 const LabelingConfig& config,
                 FacetField* field) {
@@ -66,7 +66,7 @@ void fill_unary(const TriangleMesh& mesh,
     const std::vector<double> shares = votes.shares(f, mesh.triangles[f]);
     const bool seen = supports_any(shares);
     for (std::size_t k = 0; k < classes; ++k) {
-      double cost = config.normal_weight * orientation_cost(orientations[k], normals[f], config);
+      double cost = config.normal_weight * orientation_cost(orientation, f, normals[f], k, config);
       if (seen) {
         cost -= std::log(std::max(config.beta, shares[k]));
       } else if (field->own[f] != kNoClass && field->own[f] != k) {
@@ -100,9 +100,8 @@ FacetField make_field(const TriangleMesh& mesh,
   field.start = best_by_data(mesh, votes, field.own);
   std::vector<Eigen::Vector3d> normals(mesh.triangles.size());
   for_each_facet(normals.size(), [&](std::size_t f) { normals[f] = facet_cross(mesh, f); });
-  const auto orientations =
-      estimate_orientations(normals, field.own, field.start, votes.classes.size(), config);
-  fill_unary(mesh, votes, orientations, normals, config, &field);
+  const ClassFacets facets(normals, field.own, field.start, votes.classes.size(), config);
+  fill_unary(mesh, votes, *make_orientation_model(facets, graph, config), normals, config, &field);
   field.problem.nodes = mesh.triangles.size();
   field.problem.classes = votes.classes.size();
   field.problem.edges = graph.edges;

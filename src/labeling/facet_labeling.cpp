@@ -30,6 +30,8 @@ void check_config(const LabelingConfig& c) {
   require(c.normal_floor > 0.0 && c.normal_floor <= 1.0, "normal_floor must lie in (0, 1]");
   require(c.min_normal_sigma_deg > 0.0 && c.min_normal_sigma_deg <= 180.0,
           "min_normal_sigma_deg must lie in (0, 180]");
+  require(c.local_facets >= 1 && c.local_facets <= 1000000,
+          "local_facets must lie in [1, 1000000]");
   require(c.smooth_different > 0.0 && c.smooth_equal <= 1.0 && c.smooth_different <= c.smooth_equal,
           "0 < smooth_different <= smooth_equal <= 1 must hold");
   require(c.own_label_weight >= 0.0 && c.own_label_weight <= 1000.0,

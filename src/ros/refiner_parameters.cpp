@@ -82,6 +82,13 @@ void add_labeling(ParameterTable* table, LabelingConfig* c) {
   table->add("labeling/pixel_votes",
              &c->pixel_votes,
              "evidence from all pixels that show a facet; false: from its vertices alone");
+  table->add_choice<OrientationPrior>("labeling/orientation_prior",
+                                      &c->orientation_prior,
+                                      {{"global", OrientationPrior::kGlobal},
+                                       {"mixture", OrientationPrior::kMixture},
+                                       {"local", OrientationPrior::kLocal}},
+                                      "prior on facet orientation: global: one direction per "
+                                      "class; mixture: several; local: one per neighbourhood");
   table->add("labeling/normal_weight",
              &c->normal_weight,
              "",
@@ -102,6 +109,11 @@ void add_labeling(ParameterTable* table, LabelingConfig* c) {
              "",
              "classes with fewer facets have no orientation prior",
              {0, 1e9});
+  table->add("labeling/local_facets",
+             &c->local_facets,
+             "",
+             "facets in a neighbourhood of the local orientation prior",
+             {1, 1e6});
   table->add("labeling/smooth_equal",
              &c->smooth_equal,
              "",

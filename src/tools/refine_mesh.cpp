@@ -65,6 +65,17 @@ void add_config_options(CLI::App* app, Options* options) {
       ->capture_default_str();
   app->add_option("--subdivide-px", config.subdivide_px, "largest facet, pixels")
       ->capture_default_str();
+  const std::map<std::string, OrientationPrior> priors = {{"global", OrientationPrior::kGlobal},
+                                                          {"mixture", OrientationPrior::kMixture},
+                                                          {"local", OrientationPrior::kLocal}};
+  app->add_option("--orientation-prior",
+                  config.labeling.orientation_prior,
+                  "of the labelling: global, mixture or local")
+      ->transform(CLI::CheckedTransformer(priors));
+  app->add_option("--normal-weight", config.labeling.normal_weight, "of that prior")
+      ->capture_default_str();
+  app->add_option("--local-facets", config.labeling.local_facets, "size of a neighbourhood of it")
+      ->capture_default_str();
   app->add_flag("--no-relabel", options->no_relabel, "keep the facets' labels");
   app->add_flag("--no-keep-quality",
                 options->no_keep_quality,

@@ -5,7 +5,8 @@
 //   sum_f [-log P_data(l, f) - normal_weight * log P_norm(l, f)] + sum_(f~g) w_fg [l_f != l_g]
 // is minimised by alpha-expansion. P_data is max(beta, mean over the three vertices of the share of
 // the images seeing the vertex that say l); with `pixel_votes` the pixels that show the facet vote
-// too. P_norm falls with the angle to the class's mean normal. w_fg = log(smooth_equal /
+// too. P_norm falls with the angle to the class's mean normal (see
+// OrientationPrior for other forms). w_fg = log(smooth_equal /
 // smooth_different) * (length of the common edge / mean edge length of f and g).
 //
 // Why pixels: points are taken where the image has structure, so the vertices of a mapped mesh
@@ -27,13 +28,22 @@
 
 namespace facet_mapping {
 
+/// What the orientation of a class's facets is learned from. Without any: normal_weight 0.
+enum class OrientationPrior {
+  kGlobal,   ///< one mean direction per class (Romanoni et al. 2017)
+  kMixture,  ///< several directions per class, as many as the mesh asks for: walls look many ways
+  kLocal     ///< one per class and neighbourhood (after Romanoni and Matteucci 2018): roads climb
+};
+
 struct LabelingConfig {
   double beta = 0.1;        ///< floor of the data probability
   bool pixel_votes = true;  ///< evidence from all pixels of a facet; off: its vertices (the paper)
+  OrientationPrior orientation_prior = OrientationPrior::kGlobal;
   double normal_weight = 1.5;  ///< exponent lambda_n of the orientation prior
   double normal_floor = 0.2;   ///< of the orientation probability: no prior outvotes all images
   double min_normal_sigma_deg = 10.0;  ///< least angular deviation that a class is credited with
   int min_normal_facets = 20;          ///< classes with fewer facets have no orientation prior
+  int local_facets = 4000;             ///< size of a neighbourhood of OrientationPrior::kLocal
   double smooth_equal = 0.8;           ///< pairwise probability of equal labels
   double smooth_different = 0.2;       ///< pairwise probability of different labels
   double own_label_weight =
