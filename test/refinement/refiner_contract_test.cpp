@@ -94,7 +94,7 @@ TEST(RefineContract, TheResultSaysWhereItsVerticesLayAtTheStart) {
 TEST(RefineContract, TheStartPointsOfAFinerMeshLieOnTheStart) {
   const test::Scene scene = test::wavy_plane();
   RefinementConfig config = test::photometric_config();
-  config.subdivide_px = 100.0;
+  config.subdivide_px = 12.0;
   const RefinementResult result = refine(scene.mesh, scene.views, LabelSet(), config);
   ASSERT_GT(result.facets_after, result.facets_before);
   ASSERT_EQ(result.mesh.start_points.size(), result.mesh.vertices.size());
