@@ -55,7 +55,7 @@ std::vector<TreeBox> along_curve(const std::vector<TreeBox>& boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<TreeBox> boxes) {
+BoxTree::BoxTree(const std::vector<TreeBox>& boxes) {
   if (!boxes.empty()) {
     boxes_ = along_curve(boxes);
     const std::size_t leaves = (boxes_.size() + kLeafSize - 1) / kLeafSize;

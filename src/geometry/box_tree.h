@@ -22,7 +22,7 @@ struct TreeBox {
 /// Boxes in the order of a space-filling curve (Morton 1966), under a binary tree of bounds.
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<TreeBox> boxes);
+  explicit BoxTree(const std::vector<TreeBox>& boxes);
 
   using Visit = std::function<void(std::uint32_t, std::uint32_t)>;
 

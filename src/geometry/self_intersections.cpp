@@ -90,7 +90,7 @@ std::vector<FacetPair> find_self_intersections(const TriangleMesh& mesh,
                              [&](const TreeBox& box) { return is_degenerate(mesh, box.id); }),
               boxes.end());
   std::vector<FacetPair> pairs;
-  BoxTree(std::move(boxes)).visit_overlaps([&](std::uint32_t f, std::uint32_t g) {
+  BoxTree(boxes).visit_overlaps([&](std::uint32_t f, std::uint32_t g) {
     if (facets_cross(mesh, f, g)) {
       pairs.emplace_back(std::minmax(f, g));
     }

@@ -29,6 +29,7 @@ inline std::vector<LabeledView> cast_views(const std::vector<View>& poses,
                                            double wavelength_m) {
   const Texture texture(wavelength_m, 11);
   std::vector<LabeledView> views;
+  views.reserve(poses.size());
   for (const View& pose : poses) {
     views.push_back(cast_view(pose, surface, texture));
   }
