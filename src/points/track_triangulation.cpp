@@ -126,7 +126,10 @@ std::optional<Triangulated> triangulate_track(const std::vector<Observation>& ob
   result.rms_px = std::sqrt(equations->cost / static_cast<double>(observations.size()));
   result.parallax_rad = largest_parallax(observations);
   const double noise = std::max(pixel_sigma, result.rms_px);
-  result.covariance = noise * noise * equations->matrix.inverse();
+  // Each match starts from the one before, so that errors add up along a track: many observations
+  // are worth no more than two free ones.
+  const double shared = std::max(1.0, 0.5 * static_cast<double>(observations.size()));
+  result.covariance = shared * noise * noise * equations->matrix.inverse();
   if (!result.covariance.allFinite()) {
     return std::nullopt;
   }

@@ -165,8 +165,9 @@ TEST(TrackPoints, MovingThingsGiveNoPoints) {
     }
   }
   EXPECT_GT(counts[test::kWall], 2000U);
-  // The outline of the thing hides and shows the wall; of its own inside there is nothing.
-  EXPECT_LT(counts[test::kMover], counts[test::kWall] / 100);
+  // At rest it would have a fifth of all points. What is left are edges that lie along its motion,
+  // which look the same wherever they are.
+  EXPECT_LT(counts[test::kMover], counts[test::kWall] / 40);
 }
 
 TEST(TrackPoints, AJumpOfTheExposureLosesFewPoints) {
