@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -106,7 +107,12 @@ GroundView ground_view(const Dataset& dataset, std::size_t frame, const Options&
 }
 
 cv::Mat read_ids(const std::string& path, const LabelSet& labels, const cv::Size& size) {
-  return resize_label_image(decode_label_image(read_labels(path), "mono16", labels), size);
+  LabelImageReport report;
+  const cv::Mat ids = decode_label_image(read_labels(path), "mono16", labels, &report);
+  if (!report.clean()) {
+    std::fprintf(stderr, "%s: %s\n", path.c_str(), report.to_string().c_str());
+  }
+  return resize_label_image(ids, size);
 }
 
 TrainingImage read_image(const Dataset& dataset,
@@ -162,6 +168,7 @@ void evaluate(const Dataset& dataset, const LabelSet& labels, const Options& opt
   ConfusionMatrix confusion;
   std::size_t views = 0;
   std::chrono::duration<double> seconds{0.0};
+  std::clock_t ticks = 0;  // of all threads
   for (std::size_t k = 0; k < dataset.frames.size(); ++k) {
     const bool trained = std::count(options.views.begin(), options.views.end(), k) > 0;
     if (trained || dataset.frames[k].gt_labels.empty()) {
@@ -169,8 +176,10 @@ void evaluate(const Dataset& dataset, const LabelSet& labels, const Options& opt
     }
     const cv::Mat bgr = read_color(dataset.frames[k].left_image);
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t first_tick = std::clock();
     const cv::Mat ids = segmenter.segment(bgr, ground_view(dataset, k, options));
     seconds += std::chrono::steady_clock::now() - start;
+    ticks += std::clock() - first_tick;
     confusion.add(ids, read_ids(dataset.frames[k].gt_labels, labels, bgr.size()));
     ++views;
     if (!options.pictures.empty()) {

@@ -137,9 +137,10 @@ TEST_F(ForestSegmenterTest, DamagedFilesAreRefused) {
 
 TEST_F(ForestSegmenterTest, AnotherClassListIsRefused) {
   const ForestModel model = trained();
-  const LabelSet renamed(
-      {{3, "red", {255, 0, 0}}, {5, "lime", {0, 255, 0}}, {8, "blue", {0, 0, 255}}});
-  const LabelSet fewer({{3, "red", {255, 0, 0}}, {5, "green", {0, 255, 0}}});
+  const LabelSet renamed({make_class(3, "red", {255, 0, 0}),
+                          make_class(5, "lime", {0, 255, 0}),
+                          make_class(8, "blue", {0, 0, 255})});
+  const LabelSet fewer({make_class(3, "red", {255, 0, 0}), make_class(5, "green", {0, 255, 0})});
   const auto refusal = [&](const LabelSet& labels) {
     return sentence_of<std::runtime_error>([&] { ForestSegmenter refused(model, labels); });
   };

@@ -12,14 +12,22 @@
 
 namespace facet_mapping::test {
 
+inline ClassInfo make_class(Label id, const std::string& name, const Rgb& color) {
+  ClassInfo info;
+  info.id = id;
+  info.name = name;
+  info.color = color;
+  return info;
+}
+
 /// Three classes that count and one that is ignored.
 inline LabelSet three_classes() {
-  ClassInfo red{3, "red", {255, 0, 0}};
-  ClassInfo green{5, "green", {0, 255, 0}};
-  ClassInfo blue{8, "blue", {0, 0, 255}};
-  ClassInfo none{9, "void", {0, 0, 0}};
+  ClassInfo none = make_class(9, "void", {0, 0, 0});
   none.ignore = true;
-  return LabelSet({red, green, blue, none});
+  return LabelSet({make_class(3, "red", {255, 0, 0}),
+                   make_class(5, "green", {0, 255, 0}),
+                   make_class(8, "blue", {0, 0, 255}),
+                   none});
 }
 
 /// What() of the exception that an action throws; "" if it throws none.
@@ -38,11 +46,11 @@ inline bool contains(const std::string& text, const std::string& part) {
 }
 
 /// A folder of its own for each test.
-class FolderTest : public testing::Test {
+class FolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
               (std::string(info->test_suite_name()) + "_" + info->name());
     std::filesystem::create_directories(folder_);
   }
