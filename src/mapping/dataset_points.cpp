@@ -3,10 +3,27 @@
 #include "facet_mapping/mapping/dataset_points.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "facet_mapping/labels/label_image.h"
 
 namespace facet_mapping {
+namespace {
+
+constexpr char kTracks[] = "tracks";
+
+TrackConfig without_sky(TrackConfig config, const LabelSet& labels) {
+  config.excluded_labels = labels.sky_ids();
+  return config;
+}
+
+void append(std::vector<PointFrame> frames, std::vector<SensorPoints>* points) {
+  for (PointFrame& frame : frames) {
+    points->push_back({kTracks, std::move(frame)});
+  }
+}
+
+}  // namespace
 
 cv::Mat frame_label_image(const DatasetFrame& frame, const LabelSet& labels) {
   if (frame.labels.empty() || labels.empty()) {
@@ -20,18 +37,22 @@ cv::Mat frame_label_image(const DatasetFrame& frame, const LabelSet& labels) {
 DatasetPoints::DatasetPoints(const Dataset& dataset,
                              const LabelSet& labels,
                              const DatasetPointsConfig& config)
-    : dataset_(dataset), labels_(labels), config_(config) {
-  if (!config.stereo && !config.lidar) {
-    throw std::invalid_argument("no source of points: choose stereo, lidar or both");
+    : dataset_(dataset),
+      labels_(labels),
+      config_(config),
+      tracker_(without_sky(config.track_config, labels)) {
+  if (!config.stereo && !config.lidar && !config.tracks) {
+    throw std::invalid_argument("no source of points: choose stereo, lidar, tracks or several");
   }
   if (config.stereo && !dataset.has_right) {
     throw std::invalid_argument(
-        "the dataset has no right images, so there are no stereo points: use its LiDAR scans or "
-        "the points of a mesh");
+        "the dataset has no right images, so there are no stereo points: use its LiDAR scans, "
+        "feature tracks or the points of a mesh");
   }
   if (config.lidar && !dataset.has_scans) {
     throw std::invalid_argument(
-        "the dataset has no LiDAR scans: use stereo points or the points of a mesh");
+        "the dataset has no LiDAR scans: use stereo points, feature tracks or the points of a "
+        "mesh");
   }
   config_.stereo_config.excluded_labels = labels.sky_ids();
 }
@@ -46,6 +67,29 @@ std::vector<SensorPoints> DatasetPoints::read(std::size_t index) const {
   if (config_.lidar && !frame.scan.empty()) {
     points.push_back(read_lidar(frame, labels));
   }
+  return points;
+}
+
+std::vector<SensorPoints> DatasetPoints::follow(std::size_t index, TrackReport* report) {
+  const DatasetFrame& frame = dataset_.frames.at(index);
+  std::vector<SensorPoints> points;
+  if (!config_.tracks) {
+    return points;
+  }
+  const cv::Mat labels = frame_label_image(frame, labels_);
+  append(tracker_.add(read_gray(frame.left_image), frame.view, labels, frame.stamp, report),
+         &points);
+  std::vector<LabeledPoint> sky =
+      sky_points(labels, frame.view.camera, labels_.sky_ids(), config_.sky_config);
+  if (!sky.empty()) {
+    points.push_back({kTracks, {frame.stamp, frame.view.world_from_cam, std::move(sky)}});
+  }
+  return points;
+}
+
+std::vector<SensorPoints> DatasetPoints::finish() {
+  std::vector<SensorPoints> points;
+  append(tracker_.finish(), &points);
   return points;
 }
 

@@ -63,15 +63,28 @@ RefinementResult RefinementRun::run() {
   if (config_.relabel && has_segmentation()) {
     relabel(&current_);
   }
-  const Measured after = measure(current_, before.photometric.pixels);
-  const bool is_better = change(before, after) <= 0.0;
-  if (is_better) {
-    best = std::move(current_);
+  result_.after = before.terms;
+  if (!take_if_better(before, std::move(current_), &best)) {
+    TriangleMesh relabelled = best;
+    result_.relabelled = 0;
+    if (config_.relabel && has_segmentation()) {
+      relabel(&relabelled);
+    }
+    result_.relabelled *= take_if_better(before, std::move(relabelled), &best) ? 1 : 0;
   }
-  result_.after = is_better ? after.terms : before.terms;
   result_.facets_after = best.triangles.size();
   result_.mesh = std::move(best);
   return std::move(result_);
+}
+
+bool RefinementRun::take_if_better(const Measured& before, TriangleMesh mesh, TriangleMesh* best) {
+  const Measured after = measure(mesh, before.photometric.pixels);
+  if (change(before, after) > 0.0) {
+    return false;
+  }
+  result_.after = after.terms;
+  *best = std::move(mesh);
+  return true;
 }
 
 RefinementRun::Measured RefinementRun::measure(const TriangleMesh& mesh, std::size_t pixels) const {

@@ -42,6 +42,9 @@ class RefinementRun {
   /// By how much the energy per pixel rises.
   double change(const Measured& from, const Measured& to) const;
 
+  /// Takes the mesh, and its energies for the result, unless its energy is above the start's.
+  bool take_if_better(const Measured& before, TriangleMesh mesh, TriangleMesh* best);
+
   /// Refine `current_` at one level; false if the run was cancelled.
   bool refine_level(int level);
   bool iterate(int level, LevelProblem* problem);

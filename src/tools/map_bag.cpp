@@ -25,7 +25,7 @@ namespace {
 
 using namespace facet_mapping;
 
-enum class Source { kStereo, kLidar, kBoth, kMesh };
+enum class Source { kStereo, kLidar, kBoth, kTracks, kMesh };
 
 struct Options {
   std::string input;
@@ -44,15 +44,19 @@ struct Options {
 };
 
 void add_input_options(CLI::App& app, Options& options) {
-  const std::map<std::string, Source> sources{
-      {"stereo", Source::kStereo}, {"lidar", Source::kLidar}, {"both", Source::kBoth}};
+  const std::map<std::string, Source> sources{{"stereo", Source::kStereo},
+                                              {"lidar", Source::kLidar},
+                                              {"both", Source::kBoth},
+                                              {"tracks", Source::kTracks}};
   app.add_option("DATASET",
                  options.input,
                  "Dataset folder: KITTI odometry sequence, KITTI raw drive, left/ right/ calib.txt "
                  "poses.txt times.txt, or cameras.json images/")
       ->required();
   app.add_option("OUTPUT.ply", options.output, "Mesh to write (replaced if it exists)")->required();
-  auto* source = app.add_option("--points", options.source, "Where points come from")
+  auto* source = app.add_option("--points",
+                                options.source,
+                                "Where points come from; tracks: features of the left images alone")
                      ->transform(CLI::CheckedTransformer(sources))
                      ->default_str("stereo");
   app.add_option(
@@ -115,6 +119,8 @@ struct Totals {
   std::size_t out_of_range = 0;
   std::size_t unknown_label = 0;
   std::size_t dynamic_dropped = 0;
+  std::size_t still = 0;     // images without parallax
+  std::size_t restarts = 0;  // of the feature tracks
 
   void add(const FrameReport& report) {
     ++clouds;
@@ -141,14 +147,24 @@ Totals for_each_frame(const Options& options, const Dataset& dataset, const AddF
 
 Totals add_sensor_points(const Options& options, const Dataset& dataset, LabeledMap* map) {
   DatasetPointsConfig config = options.points;
-  config.stereo = options.source != Source::kLidar;
-  config.lidar = options.source != Source::kStereo;
-  const DatasetPoints points(dataset, map->labels(), config);
-  return for_each_frame(options, dataset, [&](std::size_t k, Totals* totals) {
-    for (const SensorPoints& sensor : points.read(k)) {
+  config.stereo = options.source == Source::kStereo || options.source == Source::kBoth;
+  config.lidar = options.source == Source::kLidar || options.source == Source::kBoth;
+  config.tracks = options.source == Source::kTracks;
+  DatasetPoints points(dataset, map->labels(), config);
+  const auto add_all = [map](const std::vector<SensorPoints>& all, Totals* totals) {
+    for (const SensorPoints& sensor : all) {
       totals->add(map->add(sensor.frame, sensor.sensor));
     }
+  };
+  Totals sums = for_each_frame(options, dataset, [&](std::size_t k, Totals* totals) {
+    add_all(points.read(k), totals);
+    TrackReport report;
+    add_all(points.follow(k, &report), totals);
+    totals->still += report.still ? 1 : 0;
+    totals->restarts += report.restarted ? 1 : 0;
   });
+  add_all(points.finish(), &sums);
+  return sums;
 }
 
 Totals add_mesh_points(const Options& options,
@@ -177,6 +193,8 @@ void print_totals(const Totals& totals) {
   say(totals.out_of_range, "points out of range");
   say(totals.unknown_label, "points of unknown classes");
   say(totals.dynamic_dropped, "points of moving things dropped");
+  say(totals.still, "images without parallax left out");
+  say(totals.restarts, "restarts of all tracks (a jump of the pose, another image size)");
   std::cout << '\n';
   if (totals.used == 0) {
     throw std::runtime_error(

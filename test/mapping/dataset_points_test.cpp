@@ -79,6 +79,42 @@ TEST(DatasetPoints, SaysWhatIsMissing) {
   EXPECT_THROW(DatasetPoints(dataset, {}, config), std::invalid_argument);
 }
 
+TEST(DatasetPoints, TracksOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
+  FACET_MAPPING_DATA_OR_SKIP(folder, "kitti_drive_0009");
+  const Dataset dataset = read_dataset(folder);
+  DatasetPointsConfig config;
+  config.stereo = false;
+  config.tracks = true;
+  config.track_config.window = 2;
+  DatasetPoints points(dataset, {}, config);
+  std::vector<SensorPoints> all;
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_TRUE(points.read(k).empty());
+    TrackReport report;
+    const std::vector<SensorPoints> done = points.follow(k, &report);
+    EXPECT_TRUE(report.used);
+    all.insert(all.end(), done.begin(), done.end());
+  }
+  EXPECT_EQ(all.size(), 3U);
+  const std::vector<SensorPoints> rest = points.finish();
+  all.insert(all.end(), rest.begin(), rest.end());
+  ASSERT_EQ(all.size(), 5U);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_EQ(all[k].sensor, "tracks");
+    EXPECT_EQ(all[k].frame.stamp, dataset.frames[k].stamp);
+    EXPECT_GT(all[k].frame.points.size(), 100U);
+  }
+}
+
+TEST(DatasetPoints, FollowGivesNothingUnlessTracksAreWanted) {
+  const testing::TempFolder folder;
+  testing::make_plain(folder.path());
+  const Dataset dataset = read_dataset(folder.path());
+  DatasetPoints points(dataset, three_classes(), every_scan_point());
+  EXPECT_TRUE(points.follow(0).empty());
+  EXPECT_TRUE(points.finish().empty());
+}
+
 TEST(DatasetPoints, BothSourcesOfARealFrameLieInTheSameStreet) {
   FACET_MAPPING_DATA_OR_SKIP(folder, "kitti_drive_0009");
   const Dataset dataset = read_dataset(folder);

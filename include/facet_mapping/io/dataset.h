@@ -62,9 +62,9 @@ struct Dataset {
 ///    centres at integers (cameras that colmap2mvsnet.py wrote are half a pixel off: give the
 ///    COLMAP model instead); [depth_gt/ with scale.txt];
 ///  - rect_001_max.png ... or rect_001_3_r5000.png ... here or in images/ (of one light: the one
-///    that more positions have, else max): DTU as published; 3x4 projection matrices pos_001.txt ... in cal18/, calib/ or
-///    Calibration/cal18/ here or in the two folders above (positions without image are left out),
-///    pixel centres at integers; [depth_gt/ with scale.txt].
+///    that more positions have, else max): DTU as published; 3x4 projection matrices pos_001.txt
+///    ... in cal18/, calib/ or Calibration/cal18/ here or in the two folders above (positions
+///    without image are left out), pixel centres at integers; [depth_gt/ with scale.txt].
 /// The last four have single images: labels are also found in segmentation/ or labels/, ground
 /// truth in labels_gt/ or gt_label/ and depth_gt/ or gt_depth/ by the image's name; the stamp is
 /// the view's index; lengths are in the units of the folder (DTU: millimetres). Left and right

@@ -13,33 +13,45 @@
 #include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/points/track_points.h"
 
 namespace facet_mapping {
 
 struct DatasetPointsConfig {
-  bool stereo = true;  ///< points of the stereo pair
-  bool lidar = false;  ///< points of the scan
+  bool stereo = true;   ///< points of the stereo pair
+  bool lidar = false;   ///< points of the scan
+  bool tracks = false;  ///< points of features followed through the left images
   StereoConfig stereo_config;
   SkyConfig sky_config;
   CloudConfig cloud_config;
+  TrackConfig track_config;
 };
 
 /// One sensor's points at one instant.
 struct SensorPoints {
-  std::string sensor;  ///< "stereo" or "lidar"
+  std::string sensor;  ///< "stereo", "lidar" or "tracks"
   PointFrame frame;
 };
 
 class DatasetPoints {
  public:
   /// Keeps a reference to the dataset. With an empty class list no point has a class; classes
-  /// marked `sky` give no points. Throws std::invalid_argument if neither source is wanted or the
-  /// dataset lacks the one that is.
+  /// marked `sky` give no points. Throws std::invalid_argument if no source is wanted or the
+  /// dataset lacks one that is.
   DatasetPoints(const Dataset& dataset, const LabelSet& labels, const DatasetPointsConfig& config);
 
-  /// The points of a frame, one entry for each source that it has. Points take their class from the
-  /// frame's label image, if there is one. Throws std::runtime_error on broken files.
+  /// The points of a frame, one entry for each of stereo and scan that it has. Points take their
+  /// class from the frame's label image, if there is one. Throws std::runtime_error on broken
+  /// files.
   std::vector<SensorPoints> read(std::size_t frame) const;
+
+  /// Feature tracks know a frame's points only after the next ones: give the frames to follow() in
+  /// the order of their stamps. It returns the points of earlier frames that are complete now, and
+  /// the sky of this one. Nothing if tracks are not wanted. Throws as read() does.
+  std::vector<SensorPoints> follow(std::size_t frame, TrackReport* report = nullptr);
+
+  /// The points of the frames that follow() still held back.
+  std::vector<SensorPoints> finish();
 
  private:
   SensorPoints read_stereo(const DatasetFrame& frame, const cv::Mat& labels) const;
@@ -48,6 +60,7 @@ class DatasetPoints {
   const Dataset& dataset_;
   LabelSet labels_;
   DatasetPointsConfig config_;
+  FeatureTracker tracker_;
 };
 
 /// The frame's segmentation as CV_16UC1 ids of the class list, size of its camera; empty where the

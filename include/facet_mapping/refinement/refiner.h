@@ -78,11 +78,11 @@ struct RefinementResult {
 /// that a segmentation calls sky (by the flag in `labels`) tell photometry nothing; facets of
 /// planar classes are smoothed more. What no view sees stays where it is. Over the pixels that both
 /// show, the result's energy is not above the start's; if no better shape is found, the start is
-/// returned. (The means in the result are over each shape's own pixels: they may rise where more
-/// has become visible.) With zero iterations nothing but labels changes. Facets that cross no other
-/// in the start do not come to cross; those that do stay whole where they can, and mostly part.
-/// Of a part, the photometric energy is that of the pixels that show it, and views that do not see
-/// it are left out.
+/// returned, with classes from the images if these agree with it better. (The means in the result
+/// are over each shape's own pixels: they may rise where more has become visible.) With zero
+/// iterations nothing but labels changes. Facets that cross no other in the start do not come to
+/// cross; those that do stay whole where they can, and mostly part. Of a part, the photometric
+/// energy is that of the pixels that show it, and views that do not see it are left out.
 ///
 /// Throws std::invalid_argument if fewer than two views are given or see the part, a view has no
 /// image of the camera's size, the mesh is invalid or the configuration is out of range.
