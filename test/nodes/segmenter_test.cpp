@@ -17,7 +17,10 @@
 namespace facet_mapping::test {
 namespace {
 
-constexpr char kNode[] = "segmenter_test/segmenter";
+/// The node under test as /diagnostics calls it; rostest names the program.
+std::string node_name() {
+  return ros::this_node::getName().substr(1) + "/segmenter";
+}
 
 /// Listens to a topic.
 struct Ear {
@@ -118,7 +121,9 @@ TEST_F(SegmenterNodeTest, SlowModelDropsTheOldestAndCountsThem) {
   for (int k = 1; k <= kImages; ++k) {
     camera_.publish(picture(bgr, k));
   }
-  const auto dropped = [&] { return diagnostics_.value(kNode, "problem: segmenter too slow"); };
+  const auto dropped = [&] {
+    return diagnostics_.value(node_name(), "problem: segmenter too slow");
+  };
   ASSERT_TRUE(wait_until([&] { return labels_.images.size() + dropped() == kImages; }))
       << labels_.images.size() << " + " << dropped();
   EXPECT_GT(dropped(), 0U);
@@ -137,7 +142,7 @@ TEST_F(SegmenterNodeTest, RateIsLimitedByTheStamps) {
     camera_.publish(picture(bgr, 100.0 + 0.25 * k));
   }
   ASSERT_TRUE(wait_until([&] {
-    return diagnostics_.value(kNode, "images skipped by max_rate_hz") == 12 &&
+    return diagnostics_.value(node_name(), "images skipped by max_rate_hz") == 12 &&
            labels_.images.size() == 5;
   })) << labels_.images.size();
 }
@@ -146,12 +151,12 @@ TEST_F(SegmenterNodeTest, BadImagesAreCountedAndTheNodeLivesOn) {
   set("queue_size", 10);
   start(8, 8);
   const cv::Mat bgr(20, 30, CV_8UC3, cv::Scalar(0, 255, 0));
-  EXPECT_TRUE(
-      diagnostics_.rises(kNode, "problem: no stamp", [&] { camera_.publish(picture(bgr, 0.0)); }));
+  EXPECT_TRUE(diagnostics_.rises(
+      node_name(), "problem: no stamp", [&] { camera_.publish(picture(bgr, 0.0)); }));
   sensor_msgs::Image truncated = picture(bgr, 1.0);
   truncated.data.resize(50);
-  EXPECT_TRUE(
-      diagnostics_.rises(kNode, "problem: unusable image", [&] { camera_.publish(truncated); }));
+  EXPECT_TRUE(diagnostics_.rises(
+      node_name(), "problem: unusable image", [&] { camera_.publish(truncated); }));
   camera_.publish(picture(bgr, 2.0));
   EXPECT_TRUE(wait_until([&] { return !labels_.images.empty(); }));
 }
