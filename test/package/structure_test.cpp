@@ -20,6 +20,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"geometry", {}},
     {"labels", {"geometry"}},
     {"points", {"geometry", "labels"}},
+    {"segmentation", {"geometry", "labels", "io"}},
     {"render", {"geometry", "labels"}},
     {"carving", {"geometry", "labels", "points"}},
     {"labeling", {"geometry", "labels", "render"}},
