@@ -4,16 +4,16 @@
 
 #include <set>
 
+#include "facet_mapping/geometry/facet_centroid.h"
+
 namespace facet_mapping {
 
 std::vector<std::uint8_t> facets_of_part(const TriangleMesh& mesh, const MeshPart& part) {
   const std::set<Label> wanted(part.classes.begin(), part.classes.end());
   std::vector<std::uint8_t> facets(mesh.triangles.size());
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
     const Label label = mesh.labels.empty() ? kUnlabelled : mesh.labels[f];
-    const Eigen::Vector3d centroid =
-        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const Eigen::Vector3d centroid = facet_centroid(mesh.vertices, mesh.triangles[f]);
     const bool inside = part.box.isEmpty() || part.box.contains(part.box_from_mesh * centroid);
     facets[f] = inside && (wanted.empty() || wanted.count(label) > 0) ? 1 : 0;
   }

@@ -4,7 +4,8 @@
 
 #include <cstring>
 #include <stdexcept>
-#include <type_traits>
+
+#include "facet_mapping/io/byte_stream.h"
 
 namespace facet_mapping {
 namespace {
@@ -13,74 +14,35 @@ namespace {
   throw std::runtime_error("a chunk of the mesh is damaged");
 }
 
-std::uint64_t checksum(const char* data, std::size_t size) {
-  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
-  for (std::size_t k = 0; k < size; ++k) {
-    hash = (hash ^ static_cast<unsigned char>(data[k])) * 1099511628211ULL;
-  }
-  return hash;
+MeshChunk read_chunk(ByteReader reader) {
+  MeshChunk chunk;
+  reader.get(chunk.key.data(), chunk.key.size());
+  chunk.revision = reader.get<std::uint32_t>();
+  reader.get(chunk.origin.data(), 3);
+  chunk.vertices = reader.get_all<Eigen::Vector3f>();
+  chunk.vertex_ids = reader.get_all<std::uint32_t>();
+  chunk.triangles = reader.get_all<Triangle>();
+  chunk.labels = reader.get_all<Label>();
+  chunk.confidence = reader.get_all<std::uint8_t>();
+  chunk.views = reader.get_all<std::uint16_t>();
+  return chunk;
 }
-
-template <typename Value>
-void put(const Value* values, std::size_t count, std::vector<char>* bytes) {
-  const auto* data = reinterpret_cast<const char*>(values);
-  bytes->insert(bytes->end(), data, data + count * sizeof(Value));
-}
-
-template <typename Value>
-void put(const std::vector<Value>& values, std::vector<char>* bytes) {
-  const std::uint64_t size = values.size();
-  put(&size, 1, bytes);
-  put(values.data(), values.size(), bytes);
-}
-
-class Reader {
- public:
-  Reader(const char* data, std::size_t size) : data_(data), left_(size) {}
-
-  template <typename Value>
-  void get(Value* values, std::size_t count) {
-    if (count > left_ / sizeof(Value)) {
-      fail();
-    }
-    if (count > 0) {
-      std::memcpy(static_cast<void*>(values), data_, count * sizeof(Value));
-    }
-    data_ += count * sizeof(Value);
-    left_ -= count * sizeof(Value);
-  }
-
-  template <typename Value>
-  void get(std::vector<Value>* values) {
-    std::uint64_t size = 0;
-    get(&size, 1);
-    if (size > left_ / sizeof(Value)) {
-      fail();
-    }
-    values->resize(size);
-    get(values->data(), size);
-  }
-
- private:
-  const char* data_;
-  std::size_t left_;
-};
 
 }  // namespace
 
 void append_chunk(const MeshChunk& chunk, std::vector<char>* bytes) {
   const std::size_t start = bytes->size();
-  put(chunk.key.data(), chunk.key.size(), bytes);
-  put(&chunk.revision, 1, bytes);
-  put(chunk.origin.data(), 3, bytes);
-  put(chunk.vertices, bytes);
-  put(chunk.vertex_ids, bytes);
-  put(chunk.triangles, bytes);
-  put(chunk.labels, bytes);
-  put(chunk.confidence, bytes);
-  put(chunk.views, bytes);
-  const std::uint64_t sum = checksum(bytes->data() + start, bytes->size() - start);
-  put(&sum, 1, bytes);
+  ByteWriter writer(bytes);
+  writer.put(chunk.key.data(), chunk.key.size());
+  writer.put(chunk.revision);
+  writer.put(chunk.origin.data(), 3);
+  writer.put_all(chunk.vertices);
+  writer.put_all(chunk.vertex_ids);
+  writer.put_all(chunk.triangles);
+  writer.put_all(chunk.labels);
+  writer.put_all(chunk.confidence);
+  writer.put_all(chunk.views);
+  writer.put(checksum(bytes->data() + start, bytes->size() - start));
 }
 
 MeshChunk parse_chunk(const std::vector<char>& bytes) {
@@ -93,18 +55,11 @@ MeshChunk parse_chunk(const std::vector<char>& bytes) {
   if (sum != checksum(bytes.data(), size)) {
     fail();
   }
-  MeshChunk chunk;
-  Reader reader(bytes.data(), size);
-  reader.get(chunk.key.data(), chunk.key.size());
-  reader.get(&chunk.revision, 1);
-  reader.get(chunk.origin.data(), 3);
-  reader.get(&chunk.vertices);
-  reader.get(&chunk.vertex_ids);
-  reader.get(&chunk.triangles);
-  reader.get(&chunk.labels);
-  reader.get(&chunk.confidence);
-  reader.get(&chunk.views);
-  return chunk;
+  try {
+    return read_chunk(ByteReader(bytes.data(), size));
+  } catch (const std::out_of_range&) {
+    fail();
+  }
 }
 
 }  // namespace facet_mapping

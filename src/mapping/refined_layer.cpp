@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "hash_bits.h"
 #include <tbb/parallel_for.h>
+
+#include "facet_mapping/geometry/facet_centroid.h"
 
 namespace facet_mapping {
 namespace {
@@ -14,10 +17,6 @@ namespace {
 Triangle first_least(const Triangle& t) {
   const auto least = std::min_element(t.begin(), t.end()) - t.begin();
   return {t[least], t[(least + 1) % 3], t[(least + 2) % 3]};
-}
-
-Eigen::Vector3d middle(const std::vector<Eigen::Vector3d>& points, const Triangle& t) {
-  return (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
 }
 
 Eigen::Vector3d at_weights(const std::vector<Eigen::Vector3d>& points,
@@ -41,8 +40,7 @@ Triangle corners(const Triangle& t, const std::vector<std::uint32_t>& matched) {
 std::size_t RefinedLayer::Hash::operator()(const Triangle& t) const {
   std::uint64_t hash = 0;
   for (const std::uint32_t v : t) {
-    hash = (hash ^ v) * 0x9E3779B97F4A7C15ULL;
-    hash ^= hash >> 29U;
+    hash = add_to_hash(hash, v);
   }
   return hash;
 }
@@ -69,7 +67,8 @@ void RefinedLayer::add_pieces(const TriangleMesh& map, const std::vector<std::ui
   const FacetSearch search(map.vertices, map.triangles);
   std::vector<Piece*> parents(refined_.triangles.size());
   tbb::parallel_for(std::size_t{0}, parents.size(), [&](std::size_t f) {
-    parents[f] = pieces[search.nearest(middle(refined_.start_points, refined_.triangles[f])).facet];
+    parents[f] =
+        pieces[search.nearest(facet_centroid(refined_.start_points, refined_.triangles[f])).facet];
   });
   for (std::size_t f = 0; f < parents.size(); ++f) {
     // Facets may join a part of certain classes while it is refined.

@@ -8,6 +8,7 @@
 #include "refined_layer.h"
 #include <tbb/parallel_for.h>
 
+#include "facet_mapping/geometry/facet_centroid.h"
 #include "facet_mapping/refinement/subdivision.h"
 
 namespace facet_mapping {
@@ -21,19 +22,18 @@ struct Owner {
   const RefinedLayer::Piece* piece = nullptr;
 };
 
-std::vector<Owner> find_owners(const TriangleMesh& map, const Layers& layers) {
-  std::vector<Owner> owners(map.triangles.size());
-  for (const RefinedLayer* layer : layers) {
-    const std::vector<std::uint32_t> matched = layer->match(map.vertices);
-    tbb::parallel_for(std::size_t{0}, owners.size(), [&](std::size_t f) {
-      const auto* piece =
-          owners[f].layer != nullptr ? nullptr : layer->piece(corners(map.triangles[f], matched));
-      if (piece != nullptr) {
-        owners[f] = {layer, piece};
-      }
-    });
-  }
-  return owners;
+/// Gives the facets that have no owner yet to the layer.
+void add_owner(const TriangleMesh& map,
+               const RefinedLayer& layer,
+               const std::vector<std::uint32_t>& matched,
+               std::vector<Owner>* owners) {
+  tbb::parallel_for(std::size_t{0}, owners->size(), [&](std::size_t f) {
+    Owner& owner = (*owners)[f];
+    if (owner.layer == nullptr) {
+      const auto* piece = layer.piece(corners(map.triangles[f], matched));
+      owner = piece != nullptr ? Owner{&layer, piece} : Owner{};
+    }
+  });
 }
 
 /// As fine as refinement left it. `owners`, one per facet, are carried to the new facets.
@@ -111,12 +111,7 @@ void take_attributes(const std::vector<Owner>& owners, const Layers& layers, Tri
   });
 }
 
-TriangleMesh lay_over(const TriangleMesh& map, const Layers& layers) {
-  const RefinedLayer& newest = *layers.front();
-  if (layers.size() == 1 && newest.is_made_from(map, newest.match(map.vertices))) {
-    return newest.refined();
-  }
-  std::vector<Owner> owners = find_owners(map, layers);
+TriangleMesh lay_over(const TriangleMesh& map, std::vector<Owner> owners, const Layers& layers) {
   TriangleMesh merged = split_as_refined(map, &owners);
   move_vertices(owners, layers, &merged);
   take_attributes(owners, layers, &merged);
@@ -140,17 +135,29 @@ void RefinedOverlay::add(const TriangleMesh& map, TriangleMesh refined, const Me
   auto layer = std::make_unique<RefinedLayer>(map, std::move(refined), in_part);
   if (layer_ && !part.is_everything()) {
     const Layers both{layer.get(), layer_.get()};
-    const std::vector<Owner> owners = find_owners(map, both);
+    std::vector<Owner> owners(in_part.size());
+    for (const RefinedLayer* one : both) {
+      add_owner(map, *one, one->match(map.vertices), &owners);
+    }
     for (std::size_t f = 0; f < in_part.size(); ++f) {
       in_part[f] = owners[f].layer != nullptr ? 1 : 0;
     }
-    layer = std::make_unique<RefinedLayer>(map, lay_over(map, both), in_part);
+    layer = std::make_unique<RefinedLayer>(map, lay_over(map, std::move(owners), both), in_part);
   }
   layer_ = std::move(layer);
 }
 
 TriangleMesh RefinedOverlay::merge(const TriangleMesh& map) const {
-  return layer_ && !map.empty() ? lay_over(map, {layer_.get()}) : map;
+  if (!layer_ || map.empty()) {
+    return map;
+  }
+  const std::vector<std::uint32_t> matched = layer_->match(map.vertices);
+  if (layer_->is_made_from(map, matched)) {
+    return layer_->refined();
+  }
+  std::vector<Owner> owners(map.triangles.size());
+  add_owner(map, *layer_, matched, &owners);
+  return lay_over(map, std::move(owners), {layer_.get()});
 }
 
 void RefinedOverlay::clear() {

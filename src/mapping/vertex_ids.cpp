@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "hash_bits.h"
+
 namespace facet_mapping {
 
 std::size_t VertexIds::Hash::operator()(const Eigen::Vector3d& p) const {
@@ -13,8 +15,7 @@ std::size_t VertexIds::Hash::operator()(const Eigen::Vector3d& p) const {
     std::uint64_t bits = 0;
     const double positive_zero = value + 0.0;  // -0 equals 0
     std::memcpy(&bits, &positive_zero, sizeof(bits));
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;
-    hash ^= hash >> 29U;
+    hash = add_to_hash(hash, bits);
   }
   return hash;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "excluded_labels.h"
 #include "rules.h"
 #include <opencv2/imgproc.hpp>
 
@@ -93,9 +94,7 @@ std::size_t label_points_from_image(std::vector<LabeledPoint>& points,
       continue;
     }
     const Label label = labels.at<Label>(seen.pixel);
-    const auto& excluded = config.excluded_labels;
-    if (label != kUnlabelled &&
-        std::find(excluded.begin(), excluded.end(), label) == excluded.end()) {
+    if (label != kUnlabelled && !detail::is_excluded(label, config.excluded_labels)) {
       points[i].label = label;
       ++labelled;
     }

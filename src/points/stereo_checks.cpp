@@ -8,14 +8,6 @@
 #include "rules.h"
 
 namespace facet_mapping::detail {
-namespace {
-
-std::string size_text(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-}  // namespace
-
 void check_stereo_config(const StereoConfig& config) {
   Rules rules;
   rules.require(config.num_disparities > 0 && config.num_disparities % 16 == 0 &&

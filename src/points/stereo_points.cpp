@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "excluded_labels.h"
 #include "pixel_thinning.h"
 #include "stereo_checks.h"
 #include "subpixel.h"
@@ -36,10 +37,6 @@ struct Triangulation {
   bool in_range(double depth) const { return depth >= min_depth && depth <= max_depth; }
 };
 
-bool is_excluded(Label label, const std::vector<Label>& excluded) {
-  return std::find(excluded.begin(), excluded.end(), label) != excluded.end();
-}
-
 /// Non-zero where a pixel may become a point.
 cv::Mat find_usable(const cv::Mat& disparity,
                     const cv::Mat& labels,
@@ -55,7 +52,7 @@ cv::Mat find_usable(const cv::Mat& disparity,
       const bool in_range =
           disparity_row[x] > 0.0F && triangulation.in_range(triangulation.depth(disparity_row[x]));
       if (!in_range ||
-          (label_row != nullptr && is_excluded(label_row[x], config.excluded_labels))) {
+          (label_row != nullptr && detail::is_excluded(label_row[x], config.excluded_labels))) {
         usable_row[x] = 0;
       }
     }

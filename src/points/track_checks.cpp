@@ -47,20 +47,17 @@ void check_track_config(const TrackConfig& config) {
 }
 
 void check_track_image(const cv::Mat& gray, const PinholeCamera& camera, const cv::Mat& labels) {
-  const auto text = [](int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-  };
   Rules rules;
   rules.require(!gray.empty() && gray.type() == CV_8UC1, "the image must be 8-bit grey");
   rules.require(camera.is_valid(), "the camera has no valid intrinsics");
   rules.require(gray.cols == camera.width && gray.rows == camera.height,
-                "the camera is of size " + text(camera.width, camera.height) +
-                    " but the image of size " + text(gray.cols, gray.rows));
+                "the camera is of size " + size_text({camera.width, camera.height}) +
+                    " but the image of size " + size_text(gray.size()));
   rules.require(labels.empty() || labels.type() == CV_16UC1,
                 "the label image must hold 16-bit class ids");
   rules.require(labels.empty() || labels.size() == gray.size(),
-                "the label image is " + text(labels.cols, labels.rows) + " but the image " +
-                    text(gray.cols, gray.rows) + "; resize it without interpolation");
+                "the label image is " + size_text(labels.size()) + " but the image " +
+                    size_text(gray.size()) + "; resize it without interpolation");
   rules.throw_if_broken("The image cannot be followed: ");
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "excluded_labels.h"
 #include "track.h"
 #include "track_checks.h"
 #include "track_matching.h"
@@ -47,10 +48,6 @@ Label label_at(const cv::Mat& labels, const Eigen::Vector2d& pixel) {
   const int x = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, labels.cols - 1);
   const int y = std::clamp(static_cast<int>(std::lround(pixel.y())), 0, labels.rows - 1);
   return labels.at<Label>(y, x);
-}
-
-bool is_excluded(Label label, const std::vector<Label>& excluded) {
-  return std::find(excluded.begin(), excluded.end(), label) != excluded.end();
 }
 
 Observation observe(const TrackImage& image,
@@ -268,7 +265,7 @@ class FeatureTracker::State {
     }
     const Label label = track.observations[from.number - first].label;
     if (!(in_cam.z() >= config_.min_depth_m && in_cam.z() <= config_.max_depth_m) ||
-        is_excluded(label, config_.excluded_labels)) {
+        detail::is_excluded(label, config_.excluded_labels)) {
       ++report->out_of_range;
       return;
     }

@@ -65,12 +65,12 @@ RefinementResult RefinementRun::run() {
   }
   result_.after = before.terms;
   if (!take_if_better(before, std::move(current_), &best)) {
-    TriangleMesh relabelled = best;
     result_.relabelled = 0;
     if (config_.relabel && has_segmentation()) {
+      TriangleMesh relabelled = best;
       relabel(&relabelled);
+      result_.relabelled *= take_if_better(before, std::move(relabelled), &best) ? 1 : 0;
     }
-    result_.relabelled *= take_if_better(before, std::move(relabelled), &best) ? 1 : 0;
   }
   result_.facets_after = best.triangles.size();
   result_.mesh = std::move(best);

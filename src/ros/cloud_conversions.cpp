@@ -10,6 +10,8 @@
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include "facet_mapping/geometry/facet_centroid.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -207,9 +209,7 @@ sensor_msgs::PointCloud2 cloud_from_mesh(const TriangleMesh& mesh,
   sensor_msgs::PointCloud2Iterator<std::uint16_t> label(cloud, "label");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> color(cloud, "rgb");
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    const Eigen::Vector3d center =
-        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const Eigen::Vector3d center = facet_centroid(mesh.vertices, mesh.triangles[f]);
     for (int axis = 0; axis < 3; ++axis) {
       position[axis] = static_cast<float>(center[axis]);
     }

@@ -11,6 +11,7 @@
 #include "cell_features.h"
 
 #include "facet_mapping/io/atomic_file.h"
+#include "facet_mapping/io/byte_stream.h"
 #include "facet_mapping/segmentation/forest_model.h"
 
 namespace facet_mapping {
@@ -19,73 +20,14 @@ namespace {
 constexpr char kMagic[] = "facet_mapping forest\n";
 constexpr std::int32_t kFileVersion = 1;
 
-std::uint64_t checksum(const char* data, std::size_t bytes) {
-  std::uint64_t sum = 14695981039346656037ULL;
-  for (std::size_t k = 0; k < bytes; ++k) {
-    sum = (sum ^ static_cast<unsigned char>(data[k])) * 1099511628211ULL;
-  }
-  return sum;
+void put_text(const std::string& text, ByteWriter* writer) {
+  writer->put_all(std::vector<char>(text.begin(), text.end()));
 }
 
-class Writer {
- public:
-  template <typename T>
-  void put(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-  }
-  template <typename T>
-  void put_all(const std::vector<T>& values) {
-    put(static_cast<std::uint64_t>(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  }
-  void put_text(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
-  std::string& bytes() { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-/// Throws std::out_of_range at the end of the bytes.
-class Reader {
- public:
-  Reader(const char* data, std::size_t bytes) : data_(data), left_(bytes) {}
-
-  template <typename T>
-  T get() {
-    T value;
-    take(&value, sizeof(T), 1);
-    return value;
-  }
-  template <typename T>
-  std::vector<T> get_all() {
-    const auto count = get<std::uint64_t>();
-    if (count > left_ / sizeof(T)) {
-      throw std::out_of_range("more values than bytes");
-    }
-    std::vector<T> values(count);
-    take(values.data(), sizeof(T), count);
-    return values;
-  }
-  std::string get_text() {
-    const std::vector<char> text = get_all<char>();
-    return {text.begin(), text.end()};
-  }
-
- private:
-  void take(void* target, std::size_t size, std::size_t count) {
-    if (size * count > left_) {
-      throw std::out_of_range("end of file");
-    }
-    if (count > 0) {
-      std::memcpy(target, data_, size * count);
-    }
-    data_ += size * count;
-    left_ -= size * count;
-  }
-
-  const char* data_;
-  std::size_t left_;
-};
+std::string get_text(ByteReader* reader) {
+  const std::vector<char> text = reader->get_all<char>();
+  return {text.begin(), text.end()};
+}
 
 std::runtime_error problem(const std::string& path, const std::string& sentence) {
   return std::runtime_error("The forest '" + path + "' " + sentence +
@@ -101,7 +43,7 @@ std::string read_bytes(const std::string& path) {
 }
 
 /// The bytes between magic and check sum.
-Reader open_bytes(const std::string& bytes, const std::string& path) {
+ByteReader open_bytes(const std::string& bytes, const std::string& path) {
   const std::size_t magic = sizeof(kMagic) - 1;
   if (bytes.compare(0, magic, kMagic) != 0) {
     throw problem(path, "is no forest that train_segmenter wrote");
@@ -133,7 +75,7 @@ bool is_sound(const ForestModel& model) {
   return sound;
 }
 
-ForestModel read_model(Reader* reader) {
+ForestModel read_model(ByteReader* reader) {
   ForestModel model;
   model.cells.working_width = reader->get<std::int32_t>();
   model.cells.cell_px = reader->get<std::int32_t>();
@@ -142,7 +84,7 @@ ForestModel read_model(Reader* reader) {
   const auto classes = reader->get<std::uint64_t>();
   for (std::uint64_t k = 0; k < classes; ++k) {
     const auto id = reader->get<Label>();
-    model.classes.push_back({id, reader->get_text()});
+    model.classes.push_back({id, get_text(reader)});
   }
   model.nodes = reader->get_all<ForestModel::Node>();
   model.roots = reader->get_all<std::int32_t>();
@@ -153,8 +95,8 @@ ForestModel read_model(Reader* reader) {
 }  // namespace
 
 void save_forest(const ForestModel& model, const std::string& path) {
-  Writer writer;
-  writer.bytes() = kMagic;
+  std::vector<char> bytes(kMagic, kMagic + sizeof(kMagic) - 1);
+  ByteWriter writer(&bytes);
   writer.put(kFileVersion);
   writer.put(static_cast<std::int32_t>(detail::kFeatureVersion));
   writer.put(static_cast<std::int32_t>(model.cells.working_width));
@@ -164,20 +106,20 @@ void save_forest(const ForestModel& model, const std::string& path) {
   writer.put(static_cast<std::uint64_t>(model.classes.size()));
   for (const ForestClass& known : model.classes) {
     writer.put(known.id);
-    writer.put_text(known.name);
+    put_text(known.name, &writer);
   }
   writer.put_all(model.nodes);
   writer.put_all(model.roots);
   writer.put_all(model.leaves);
-  writer.put(checksum(writer.bytes().data(), writer.bytes().size()));
+  writer.put(checksum(bytes.data(), bytes.size()));
   AtomicFile file(path);
-  file.write(writer.bytes());
+  file.write(bytes.data(), bytes.size());
   file.commit();
 }
 
 ForestModel load_forest(const std::string& path) {
   const std::string bytes = read_bytes(path);
-  Reader reader = open_bytes(bytes, path);
+  ByteReader reader = open_bytes(bytes, path);
   try {
     if (reader.get<std::int32_t>() != kFileVersion ||
         reader.get<std::int32_t>() != detail::kFeatureVersion) {

@@ -72,7 +72,7 @@ class BestClass {
 ForestSegmenter::ForestSegmenter(ForestModel model,
                                  const LabelSet& labels,
                                  const ForestSegmenterConfig& config)
-    : model_(std::move(model)), config_(config) {
+    : Segmenter(config.min_confidence), model_(std::move(model)), config_(config) {
   check_classes(model_, labels);
   check_config(config_);
 }
@@ -112,15 +112,8 @@ cv::Mat ForestSegmenter::run(const cv::Mat& bgr, const GroundView* ground, cv::M
     }
     best.show(model_.classes[c].id, plane);
   }
-  cv::Mat labels = best.labels();
-  const cv::Mat probability = best.confidence();
-  if (config_.min_confidence > 0.0) {
-    labels.setTo(kUnlabelled, probability < config_.min_confidence);
-  }
-  if (confidence != nullptr) {
-    *confidence = probability;
-  }
-  return labels;
+  *confidence = best.confidence();
+  return best.labels();
 }
 
 }  // namespace facet_mapping

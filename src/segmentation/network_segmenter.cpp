@@ -172,7 +172,9 @@ cv::Mat labels_of_ids(const cv::Mat& ids,
 }  // namespace
 
 NetworkSegmenter::NetworkSegmenter(const NetworkConfig& config, const LabelSet& labels)
-    : config_(config), class_map_(read_class_map(config.class_map, labels)) {
+    : Segmenter(config.min_confidence),
+      config_(config),
+      class_map_(read_class_map(config.class_map, labels)) {
   check_config(config);
   net_ = std::make_unique<Net>(config, class_map_.size());
   const cv::Mat blank(config.input_height, config.input_width, CV_8UC3, cv::Scalar::all(0.0));
@@ -190,22 +192,12 @@ cv::Mat NetworkSegmenter::run(const cv::Mat& bgr,
   for (const double scale : config_.scales) {
     const cv::Mat output = net_->forward(bgr, scale);
     if (output.size[1] == 1 && class_map_.size() > 1) {  // ids: one scale says all
-      if (confidence != nullptr) {
-        *confidence = cv::Mat(bgr.size(), CV_32FC1, cv::Scalar(1.0));
-      }
+      *confidence = cv::Mat(bgr.size(), CV_32FC1, cv::Scalar(1.0));
       return labels_of_ids(output, bgr.size(), class_map_, config_.model);
     }
     grids.push_back(detail::make_score_grid(output));
   }
-  cv::Mat probability;
-  cv::Mat labels = detail::most_likely_classes(grids, bgr.size(), class_map_, &probability);
-  if (config_.min_confidence > 0.0) {
-    labels.setTo(kUnlabelled, probability < config_.min_confidence);
-  }
-  if (confidence != nullptr) {
-    *confidence = probability;
-  }
-  return labels;
+  return detail::most_likely_classes(grids, bgr.size(), class_map_, confidence);
 }
 
 }  // namespace facet_mapping

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "facet_mapping/geometry/label.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -25,9 +27,21 @@ void check_color_image(const cv::Mat& bgr) {
   }
 }
 
+cv::Mat Segmenter::sure_labels(const cv::Mat& bgr, const GroundView* ground, cv::Mat* confidence) {
+  cv::Mat probability;
+  cv::Mat labels = run(bgr, ground, &probability);
+  if (min_confidence_ > 0.0) {
+    labels.setTo(kUnlabelled, probability < min_confidence_);
+  }
+  if (confidence != nullptr) {
+    *confidence = probability;
+  }
+  return labels;
+}
+
 cv::Mat Segmenter::segment(const cv::Mat& bgr, cv::Mat* confidence) {
   check_color_image(bgr);
-  return run(bgr, nullptr, confidence);
+  return sure_labels(bgr, nullptr, confidence);
 }
 
 cv::Mat Segmenter::segment(const cv::Mat& bgr, const GroundView& ground, cv::Mat* confidence) {
@@ -38,7 +52,7 @@ cv::Mat Segmenter::segment(const cv::Mat& bgr, const GroundView& ground, cv::Mat
                                 " pixels, but its camera is for " +
                                 size_text(camera.width, camera.height) + "; give the image's own");
   }
-  return run(bgr, &ground, confidence);
+  return sure_labels(bgr, &ground, confidence);
 }
 
 }  // namespace facet_mapping

@@ -48,11 +48,7 @@ void add_input_options(CLI::App& app, Options& options) {
                                               {"lidar", Source::kLidar},
                                               {"both", Source::kBoth},
                                               {"tracks", Source::kTracks}};
-  app.add_option("DATASET",
-                 options.input,
-                 "Dataset folder: KITTI odometry sequence, KITTI raw drive, left/ right/ calib.txt "
-                 "poses.txt times.txt, or cameras.json images/")
-      ->required();
+  app.add_option("DATASET", options.input, "Dataset folder (layouts below)")->required();
   app.add_option("OUTPUT.ply", options.output, "Mesh to write (replaced if it exists)")->required();
   auto* source = app.add_option("--points",
                                 options.source,
@@ -254,9 +250,9 @@ int main(int argc, char** argv) {
   add_input_options(app, options);
   add_point_options(app, options);
   add_carving_options(app, options.map.carving);
-  app.footer(
-      "Examples:\n"
-      "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points both\n"
-      "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
+  app.footer(dataset_layouts_help() +
+             "\n\nExamples:\n"
+             "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points both\n"
+             "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
   return run_tool(app, argc, argv, [&] { run(app, options); });
 }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -168,7 +167,6 @@ void evaluate(const Dataset& dataset, const LabelSet& labels, const Options& opt
   ConfusionMatrix confusion;
   std::size_t views = 0;
   std::chrono::duration<double> seconds{0.0};
-  std::clock_t ticks = 0;  // of all threads
   for (std::size_t k = 0; k < dataset.frames.size(); ++k) {
     const bool trained = std::count(options.views.begin(), options.views.end(), k) > 0;
     if (trained || dataset.frames[k].gt_labels.empty()) {
@@ -176,10 +174,8 @@ void evaluate(const Dataset& dataset, const LabelSet& labels, const Options& opt
     }
     const cv::Mat bgr = read_color(dataset.frames[k].left_image);
     const auto start = std::chrono::steady_clock::now();
-    const std::clock_t first_tick = std::clock();
     const cv::Mat ids = segmenter.segment(bgr, ground_view(dataset, k, options));
     seconds += std::chrono::steady_clock::now() - start;
-    ticks += std::clock() - first_tick;
     confusion.add(ids, read_ids(dataset.frames[k].gt_labels, labels, bgr.size()));
     ++views;
     if (!options.pictures.empty()) {

@@ -19,7 +19,8 @@ struct GroundView {
 /// Not thread-safe: one image at a time.
 class Segmenter {
  public:
-  Segmenter() = default;
+  /// Pixels less sure than `min_confidence` become kUnlabelled.
+  explicit Segmenter(double min_confidence) : min_confidence_(min_confidence) {}
   Segmenter(const Segmenter&) = delete;
   Segmenter& operator=(const Segmenter&) = delete;
   virtual ~Segmenter() = default;
@@ -33,7 +34,11 @@ class Segmenter {
   cv::Mat segment(const cv::Mat& bgr, const GroundView& ground, cv::Mat* confidence = nullptr);
 
  private:
+  cv::Mat sure_labels(const cv::Mat& bgr, const GroundView* ground, cv::Mat* confidence);
+  /// Fills `confidence`.
   virtual cv::Mat run(const cv::Mat& bgr, const GroundView* ground, cv::Mat* confidence) = 0;
+
+  double min_confidence_;
 };
 
 /// Throws std::invalid_argument unless the image is CV_8UC3 with pixels.
