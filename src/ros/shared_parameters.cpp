@@ -59,6 +59,33 @@ void add_pose(ParameterTable* table, PoseInput* config) {
   });
 }
 
+void add_sky(ParameterTable* table, SkyConfig* config) {
+  table->add("sky/cell_px",
+             &config->cell_px,
+             "px",
+             "one carving ray per square of this size that is sky all over; 0: none",
+             {0, 1000});
+  table->add("sky/range_m", &config->range_m, "m", "where the rays toward the sky end", kPositive);
+}
+
+void add_moving_camera(ParameterTable* table, MovingCameraConfig* config) {
+  add_segmentation(table, &config->segmentation);
+  add_pose(table, &config->pose);
+  table->add("queue_size",
+             &config->queue_size,
+             "images",
+             "images that may wait for the worker; further ones are dropped and counted",
+             {1, 100000});
+  table->add(
+      "flush_after_s",
+      &config->flush_after_s,
+      "s",
+      "after so long without motion (stamps) or images (wall time) points wait no longer for "
+      "further views",
+      kPositive);
+  add_sky(table, &config->sky);
+}
+
 void add_output(ParameterTable* table, MeshOutput* config) {
   table->add("chunk_size_m",
              &config->chunk_size_m,

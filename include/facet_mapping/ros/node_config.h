@@ -11,6 +11,7 @@
 #include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/points/track_points.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/ros/parameters.h"
 
@@ -52,6 +53,20 @@ struct StereoPointsNodeConfig {
   SkyConfig sky;
 };
 
+/// What the sources of points from one moving camera have in common.
+struct MovingCameraConfig {
+  SegmentationInput segmentation;
+  PoseInput pose;
+  int queue_size = 10;         ///< images that may wait for the worker
+  double flush_after_s = 2.0;  ///< without motion or images for so long, points wait no longer
+  SkyConfig sky;
+};
+
+struct TrackPointsNodeConfig {
+  MovingCameraConfig input;
+  TrackConfig tracks;
+};
+
 /// A map whose memory does not grow with the length of the drive.
 inline MapConfig bounded_map() {
   MapConfig config;
@@ -85,6 +100,7 @@ struct RefinerNodeConfig {
 
 /// The tables point into the struct, which must outlive them.
 ParameterTable parameter_table(StereoPointsNodeConfig* config);
+ParameterTable parameter_table(TrackPointsNodeConfig* config);
 ParameterTable parameter_table(MapperNodeConfig* config);
 ParameterTable parameter_table(RefinerNodeConfig* config);
 
