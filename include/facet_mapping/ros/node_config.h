@@ -11,6 +11,7 @@
 #include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/points/sweep_points.h"
 #include "facet_mapping/points/track_points.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/ros/parameters.h"
@@ -67,6 +68,11 @@ struct TrackPointsNodeConfig {
   TrackConfig tracks;
 };
 
+struct SweepPointsNodeConfig {
+  MovingCameraConfig input;
+  SweepConfig sweep;
+};
+
 /// A map whose memory does not grow with the length of the drive.
 inline MapConfig bounded_map() {
   MapConfig config;
@@ -101,6 +107,7 @@ struct RefinerNodeConfig {
 /// The tables point into the struct, which must outlive them.
 ParameterTable parameter_table(StereoPointsNodeConfig* config);
 ParameterTable parameter_table(TrackPointsNodeConfig* config);
+ParameterTable parameter_table(SweepPointsNodeConfig* config);
 ParameterTable parameter_table(MapperNodeConfig* config);
 ParameterTable parameter_table(RefinerNodeConfig* config);
 
