@@ -22,7 +22,7 @@ void add_segmentation(ParameterTable* table, SegmentationInput* config) {
       "compressed: PNG on `segmentation/compressed` (lossy formats are refused)");
   table->add("resize_segmentation",
              &config->resize,
-             "accept label images of another size, resampled to the nearest pixel");
+             "resample label images of another size, but the same shape, to the nearest pixel");
   table->add("segmentation_timeout_s",
              &config->timeout_s,
              "s",
@@ -30,6 +30,11 @@ void add_segmentation(ParameterTable* table, SegmentationInput* config) {
              kNotNegative);
   table->add(
       "cache_s", &config->cache_s, "s", "wall time that incomplete frames are kept", kPositive);
+  table->add("min_confidence",
+             &config->min_confidence,
+             "",
+             "above 0: pixels below this on `segmentation_confidence` are unlabelled",
+             kUnit);
   table->add_check([config]() -> std::string {
     return config->timeout_s <= config->cache_s
                ? ""

@@ -25,9 +25,10 @@ struct SegmentationInput {
   std::string label_file = "cityscapes";  ///< path, or the name of a shipped list
   bool use_segmentation = true;           ///< false: geometry only
   ImageTransport transport = ImageTransport::kRaw;
-  bool resize = false;     ///< accept label images of another size
-  double timeout_s = 2.0;  ///< how long an image waits for its segmentation, wall time
-  double cache_s = 5.0;    ///< how long incomplete frames are kept, wall time
+  bool resize = true;           ///< accept label images of another size, if of the same shape
+  double timeout_s = 2.0;       ///< how long an image waits for its segmentation, wall time
+  double cache_s = 5.0;         ///< how long incomplete frames are kept, wall time
+  double min_confidence = 0.0;  ///< less sure pixels are unlabelled; 0: no confidence images
 };
 
 /// What happens when stamps run backwards (a bag played in a loop).
