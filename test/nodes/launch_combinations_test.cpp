@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every rig that the launch arguments can describe yields a mesh, with the right classes or
 // without.
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -16,6 +16,7 @@
 #include "node_harness.h"
 #include <cv_bridge/cv_bridge.h>
 #include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 
 #include "facet_mapping/geometry/facet_centroid.h"
 #include "facet_mapping/ros/cloud_conversions.h"
@@ -33,7 +34,7 @@ constexpr char kOverlay[] =
     "stereo_points: {diagnostic_period: 0.2, stereo: {num_disparities: 64}}\n"
     "track_points: {diagnostic_period: 0.2, queue_size: 100, flush_after_s: 1.0}\n"
     "sweep_points: {diagnostic_period: 0.2, queue_size: 100, flush_after_s: 1.0}\n"
-    "lidar_points: {diagnostic_period: 0.2}\n"
+    "lidar_points: {diagnostic_period: 0.2, outlier_neighbors: 0}\n"
     "segmenter: {queue_size: 100, network: {input_width: 320, input_height: 200}}\n"
     "mapper: {diagnostic_period: 0.2, update_period_s: 0.2, carving: {steiner_reach_m: 25.0}}\n";
 
@@ -99,10 +100,10 @@ Score score(const TriangleMesh& mesh) {
 
 using Rig = std::tuple<std::string, bool, std::string>;  // camera, lidar, segmentation
 
-class LaunchCombinationsTest : public testing::TestWithParam<Rig> {
+class LaunchCombinationsTest : public ::testing::TestWithParam<Rig> {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::filesystem::path(testing::TempDir()) / "facet_mapping_launch_combinations";
+    folder_ = std::filesystem::path(::testing::TempDir()) / "facet_mapping_launch_combinations";
     std::filesystem::create_directories(folder_);
     facet_mapping::testing::write_bytes(path("classes.yaml"), kLabelFile);
     facet_mapping::testing::write_bytes(path("overlay.yaml"), kOverlay);
@@ -228,29 +229,31 @@ TEST_P(LaunchCombinationsTest, YieldsAMesh) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<Rig>& info) {
+std::string name_of(const ::testing::TestParamInfo<Rig>& info) {
   const auto& [camera, lidar, segmentation] = info.param;
   return camera + (lidar ? "_lidar_" : "_") + segmentation;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras,
-                         LaunchCombinationsTest,
-                         testing::Combine(testing::Values("mono", "stereo"),
-                                          testing::Bool(),
-                                          testing::Values("topic", "network", "forest", "none")),
-                         name_of);
-INSTANTIATE_TEST_SUITE_P(NoCamera,
-                         LaunchCombinationsTest,
-                         testing::Combine(testing::Values("none"),
-                                          testing::Values(true),
-                                          testing::Values("topic", "network", "forest", "none")),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Cameras,
+    LaunchCombinationsTest,
+    ::testing::Combine(::testing::Values("mono", "stereo"),
+                       ::testing::Bool(),
+                       ::testing::Values("topic", "network", "forest", "none")),
+    name_of);
+INSTANTIATE_TEST_SUITE_P(
+    NoCamera,
+    LaunchCombinationsTest,
+    ::testing::Combine(::testing::Values("none"),
+                       ::testing::Values(true),
+                       ::testing::Values("topic", "network", "forest", "none")),
+    name_of);
 
 }  // namespace
 }  // namespace facet_mapping::test
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "launch_combinations_test");
   const ros::NodeHandle keeps_the_node_alive;
   return RUN_ALL_TESTS();
