@@ -5,11 +5,12 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "carving_options.h"
+#include "point_sources.h"
 #include "tool_main.h"
 
 #include "facet_mapping/io/atomic_file.h"
@@ -25,12 +26,10 @@ namespace {
 
 using namespace facet_mapping;
 
-enum class Source { kStereo, kLidar, kBoth, kTracks, kMesh };
-
 struct Options {
   std::string input;
   std::string output;
-  Source source = Source::kStereo;
+  std::vector<std::string> sources{"stereo"};
   std::string points_mesh;
   std::string labels;
   std::size_t first = 0;
@@ -44,17 +43,9 @@ struct Options {
 };
 
 void add_input_options(CLI::App& app, Options& options) {
-  const std::map<std::string, Source> sources{{"stereo", Source::kStereo},
-                                              {"lidar", Source::kLidar},
-                                              {"both", Source::kBoth},
-                                              {"tracks", Source::kTracks}};
   app.add_option("DATASET", options.input, "Dataset folder (layouts below)")->required();
   app.add_option("OUTPUT.ply", options.output, "Mesh to write (replaced if it exists)")->required();
-  auto* source = app.add_option("--points",
-                                options.source,
-                                "Where points come from; tracks: features of the left images alone")
-                     ->transform(CLI::CheckedTransformer(sources))
-                     ->default_str("stereo");
+  auto* source = add_points_option(app, options.sources)->capture_default_str();
   app.add_option(
          "--points-mesh",
          options.points_mesh,
@@ -142,10 +133,7 @@ Totals for_each_frame(const Options& options, const Dataset& dataset, const AddF
 }
 
 Totals add_sensor_points(const Options& options, const Dataset& dataset, LabeledMap* map) {
-  DatasetPointsConfig config = options.points;
-  config.stereo = options.source == Source::kStereo || options.source == Source::kBoth;
-  config.lidar = options.source == Source::kLidar || options.source == Source::kBoth;
-  config.tracks = options.source == Source::kTracks;
+  const DatasetPointsConfig config = with_sources(options.points, options.sources);
   DatasetPoints points(dataset, map->labels(), config);
   const auto add_all = [map](const std::vector<SensorPoints>& all, Totals* totals) {
     for (const SensorPoints& sensor : all) {
@@ -250,9 +238,10 @@ int main(int argc, char** argv) {
   add_input_options(app, options);
   add_point_options(app, options);
   add_carving_options(app, options.map.carving);
-  app.footer(dataset_layouts_help() +
-             "\n\nExamples:\n"
-             "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points both\n"
-             "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
+  app.footer(
+      dataset_layouts_help() +
+      "\n\nExamples:\n"
+      "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points stereo,lidar\n"
+      "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
   return run_tool(app, argc, argv, [&] { run(app, options); });
 }
