@@ -73,6 +73,11 @@ void add_point_options(CLI::App& app, Options& options) {
                  options.points.cloud_config.voxel_m,
                  "LiDAR: at most one point of a scan per cube of this size, metres; 0: all")
       ->capture_default_str();
+  app.add_option("--lidar-sigma",
+                 options.points.cloud_config.sigma_m,
+                 "LiDAR: standard deviation of the points along their rays, metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--cell",
                  options.points.stereo_config.cell_px,
                  "Stereo: at most one point per cell of this size, pixels")
