@@ -5,7 +5,7 @@ import os
 from measuring import markdown_table
 
 # As evaluate_points and map_bag call them.
-SOURCES = ("stereo", "lidar", "tracks")
+SOURCES = ("stereo", "lidar", "tracks", "sweep")
 
 
 def number(value, pattern="%.1f", scale=1.0):

@@ -83,6 +83,16 @@ void add_point_options(CLI::App& app, Options& options) {
                  "Stereo: at most one point per cell of this size, pixels")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--nearest",
+                 options.points.sweep_config.min_depth_m,
+                 "Sweep: nearest depth, in the dataset's unit")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--farthest",
+                 options.points.sweep_config.max_depth_m,
+                 "Sweep: farthest depth, in the dataset's unit")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--point-sigma",
                  options.seen.sigma_m,
                  "Standard deviation of the points of --points-mesh along their rays, metres")
@@ -112,7 +122,7 @@ struct Totals {
   std::size_t unknown_label = 0;
   std::size_t dynamic_dropped = 0;
   std::size_t still = 0;     // images without parallax
-  std::size_t restarts = 0;  // of the feature tracks
+  std::size_t restarts = 0;  // of the feature tracks or the plane sweep
 
   void add(const FrameReport& report) {
     ++clouds;
@@ -147,10 +157,11 @@ Totals add_sensor_points(const Options& options, const Dataset& dataset, Labeled
   };
   Totals sums = for_each_frame(options, dataset, [&](std::size_t k, Totals* totals) {
     add_all(points.read(k), totals);
-    TrackReport report;
-    add_all(points.follow(k, &report), totals);
-    totals->still += report.still ? 1 : 0;
-    totals->restarts += report.restarted ? 1 : 0;
+    TrackReport tracks;
+    SweepReport sweep;
+    add_all(points.follow(k, &tracks, &sweep), totals);
+    totals->still += tracks.still || sweep.still ? 1 : 0;
+    totals->restarts += tracks.restarted || sweep.restarted ? 1 : 0;
   });
   add_all(points.finish(), &sums);
   return sums;
@@ -183,7 +194,7 @@ void print_totals(const Totals& totals) {
   say(totals.unknown_label, "points of unknown classes");
   say(totals.dynamic_dropped, "points of moving things dropped");
   say(totals.still, "images without parallax left out");
-  say(totals.restarts, "restarts of all tracks (a jump of the pose, another image size)");
+  say(totals.restarts, "restarts (a jump of the pose, another image size, time going back)");
   std::cout << '\n';
   if (totals.used == 0) {
     throw std::runtime_error(

@@ -23,7 +23,8 @@ inline const std::vector<PointSource>& point_sources() {
   static const std::vector<PointSource> kSources{
       {"stereo", &DatasetPointsConfig::stereo, "the stereo pair"},
       {"lidar", &DatasetPointsConfig::lidar, "the LiDAR scans"},
-      {"tracks", &DatasetPointsConfig::tracks, "features followed through the left images"}};
+      {"tracks", &DatasetPointsConfig::tracks, "features followed through the left images"},
+      {"sweep", &DatasetPointsConfig::sweep, "plane sweeping between the left images"}};
   return kSources;
 }
 
