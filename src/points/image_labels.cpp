@@ -22,7 +22,8 @@ struct Projection {
 void check_input(const Eigen::Isometry3d& cam_from_sensor,
                  const PinholeCamera& camera,
                  const cv::Mat& labels,
-                 const ImageLabelConfig& config) {
+                 const ImageLabelConfig& config,
+                 const std::vector<Occluders>& occluders) {
   detail::Rules rules;
   rules.require(camera.is_valid(), "the camera has no valid intrinsics");
   rules.require(labels.type() == CV_16UC1, "the label image must hold 16-bit class ids");
@@ -32,6 +33,10 @@ void check_input(const Eigen::Isometry3d& cam_from_sensor,
   rules.require(config.occluder_px >= 0 && config.occluder_px <= 100,
                 "occluder_px must be from 0 to 100");
   rules.require(config.occlusion_margin >= 0.0, "occlusion_margin must not be negative");
+  for (const Occluders& others : occluders) {
+    rules.require(others.points != nullptr && is_rigid(others.cam_from_points),
+                  "occluders must have points and a rigid transform");
+  }
   rules.throw_if_broken("Points cannot be labelled from the image: ");
 }
 
@@ -58,16 +63,25 @@ std::vector<Projection> project_all(const std::vector<LabeledPoint>& points,
   return projections;
 }
 
-/// Depth of the nearest point around each pixel (CV_32F, metres; infinity where there is none).
-cv::Mat nearest_depth(const std::vector<Projection>& projections,
-                      const cv::Size& size,
-                      int radius_px) {
-  cv::Mat depth(size, CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
+void draw_nearer(const std::vector<Projection>& projections, cv::Mat* depth) {
   for (const Projection& projection : projections) {
     if (projection.depth > 0.0F) {
-      auto& nearest = depth.at<float>(projection.pixel);
+      auto& nearest = depth->at<float>(projection.pixel);
       nearest = std::min(nearest, projection.depth);
     }
+  }
+}
+
+/// Depth of the nearest point around each pixel (CV_32F, metres; infinity where there is none).
+cv::Mat nearest_depth(const std::vector<Projection>& projections,
+                      const std::vector<Occluders>& occluders,
+                      const PinholeCamera& camera,
+                      int radius_px) {
+  cv::Mat depth(
+      camera.height, camera.width, CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
+  draw_nearer(projections, &depth);
+  for (const Occluders& others : occluders) {
+    draw_nearer(project_all(*others.points, others.cam_from_points, camera), &depth);
   }
   if (radius_px > 0) {
     const int side = 2 * radius_px + 1;
@@ -82,10 +96,11 @@ std::size_t label_points_from_image(std::vector<LabeledPoint>& points,
                                     const Eigen::Isometry3d& cam_from_sensor,
                                     const PinholeCamera& camera,
                                     const cv::Mat& labels,
-                                    const ImageLabelConfig& config) {
-  check_input(cam_from_sensor, camera, labels, config);
+                                    const ImageLabelConfig& config,
+                                    const std::vector<Occluders>& occluders) {
+  check_input(cam_from_sensor, camera, labels, config, occluders);
   const std::vector<Projection> projections = project_all(points, cam_from_sensor, camera);
-  const cv::Mat nearest = nearest_depth(projections, labels.size(), config.occluder_px);
+  const cv::Mat nearest = nearest_depth(projections, occluders, camera, config.occluder_px);
   const auto farthest = static_cast<float>(1.0 + config.occlusion_margin);
   std::size_t labelled = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -75,15 +75,19 @@ const PointField* find_field(const sensor_msgs::PointCloud2& cloud, const std::s
   return nullptr;
 }
 
+std::string names_of_fields(const sensor_msgs::PointCloud2& cloud) {
+  std::string names;
+  for (const PointField& field : cloud.fields) {
+    names += " " + field.name;
+  }
+  return names;
+}
+
 const PointField& coordinate(const sensor_msgs::PointCloud2& cloud, const std::string& name) {
   const PointField* field = find_field(cloud, name);
   if (field == nullptr) {
-    std::string names;
-    for (const PointField& present : cloud.fields) {
-      names += " " + present.name;
-    }
-    throw std::invalid_argument("the cloud has no field '" + name + "' (it has:" + names +
-                                "); publish x, y and z in metres");
+    throw std::invalid_argument("the cloud has no field '" + name + "' (it has:" +
+                                names_of_fields(cloud) + "); publish x, y and z in metres");
   }
   if (field->datatype != PointField::FLOAT32 && field->datatype != PointField::FLOAT64) {
     throw std::invalid_argument("the cloud's field '" + name + "' is not a float; publish metres");
@@ -136,6 +140,25 @@ std::vector<LabeledPoint> points_from_cloud(const sensor_msgs::PointCloud2& clou
     }
   }
   return points;
+}
+
+std::vector<double> values_from_cloud(const sensor_msgs::PointCloud2& cloud,
+                                      const std::string& field) {
+  const PointField* found = find_field(cloud, field);
+  if (found == nullptr) {
+    throw std::invalid_argument("the cloud has no field '" + field +
+                                "' (it has:" + names_of_fields(cloud) + ")");
+  }
+  check_layout(cloud);
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
+  for (std::size_t row = 0; row < cloud.height; ++row) {
+    const std::uint8_t* bytes = cloud.data.data() + row * cloud.row_step + found->offset;
+    for (std::size_t column = 0; column < cloud.width; ++column, bytes += cloud.point_step) {
+      values.push_back(load_as(found->datatype, bytes));
+    }
+  }
+  return values;
 }
 
 bool has_label_field(const sensor_msgs::PointCloud2& cloud) {

@@ -178,6 +178,22 @@ TEST_F(LabelFromImage, LeavesHiddenPointsAlone) {
   EXPECT_EQ(points[2].label, 1) << "as good as at the same depth";
 }
 
+TEST_F(LabelFromImage, OtherScansHideToo) {
+  std::vector<LabeledPoint> points{at(20, 1.0F, 0.5F), at(20, -8.0F, 0.5F)};
+  // Five metres before the camera; this scan's sensor was 2 m farther back.
+  const std::vector<LabeledPoint> before{at(7, 0.25F, 0.5F), at(7, 0.0F, 30.0F)};
+  Eigen::Isometry3d sensor_from_before = Eigen::Isometry3d::Identity();
+  sensor_from_before.translation().x() = -2.0;
+  const std::vector<Occluders> occluders{{&before, cam_from_sensor_ * sensor_from_before}};
+  EXPECT_EQ(label_points_from_image(points, cam_from_sensor_, camera_, labels_, {}, occluders), 1U);
+  EXPECT_EQ(points[0].label, kUnlabelled);
+  EXPECT_EQ(points[1].label, 2);
+  EXPECT_EQ(before[0].label, kUnlabelled);
+  EXPECT_EQ(label(points), 2U) << "alone nothing hides them";
+  EXPECT_THROW(label_points_from_image(points, cam_from_sensor_, camera_, labels_, {}, {{}}),
+               std::invalid_argument);
+}
+
 TEST_F(LabelFromImage, SkipsUnlabelledAndExcludedPixels) {
   labels_.colRange(0, 20).setTo(kUnlabelled);
   config_.excluded_labels = {2};

@@ -46,16 +46,25 @@ struct ImageLabelConfig {
   std::vector<Label> excluded_labels;  ///< classes that no LiDAR return can be of (sky)
 };
 
+/// Points that may hide others, though they get no class themselves: the scan before it was
+/// thinned, earlier scans. What moves since an earlier scan hides what is seen now at its old
+/// place.
+struct Occluders {
+  const std::vector<LabeledPoint>* points = nullptr;
+  Eigen::Isometry3d cam_from_points = Eigen::Isometry3d::Identity();
+};
+
 /// Gives each point that the camera sees the class of the nearest pixel of `labels` (CV_16UC1, size
 /// of the camera, taken at the time of the scan). Points outside the image, hidden behind nearer
-/// points, or on a pixel of an excluded class keep the label that they have.
-/// `cam_from_sensor` goes to the camera's optical frame. Returns how many points took a class.
-/// Throws std::invalid_argument on labels of another type or size, a camera without intrinsics or a
-/// transform that is not rigid.
+/// points (of theirs, or `occluders`), or on a pixel of an excluded class keep the label that they
+/// have. `cam_from_sensor` goes to the camera's optical frame. Returns how many points took a
+/// class. Throws std::invalid_argument on labels of another type or size, a camera without
+/// intrinsics or a transform that is not rigid.
 std::size_t label_points_from_image(std::vector<LabeledPoint>& points,
                                     const Eigen::Isometry3d& cam_from_sensor,
                                     const PinholeCamera& camera,
                                     const cv::Mat& labels,
-                                    const ImageLabelConfig& config = {});
+                                    const ImageLabelConfig& config = {},
+                                    const std::vector<Occluders>& occluders = {});
 
 }  // namespace facet_mapping

@@ -4,6 +4,7 @@
 // sensor_msgs/PointCloud2 and labelled points.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sensor_msgs/PointCloud2.h>
@@ -19,6 +20,11 @@ namespace facet_mapping {
 /// the map counts them. Throws std::invalid_argument with a sentence if x, y or z is missing or the
 /// buffer does not fit its description.
 std::vector<LabeledPoint> points_from_cloud(const sensor_msgs::PointCloud2& cloud);
+
+/// One value per point of a field of any number type. Throws std::invalid_argument with a sentence
+/// if there is no such field or the buffer does not fit its description.
+std::vector<double> values_from_cloud(const sensor_msgs::PointCloud2& cloud,
+                                      const std::string& field);
 
 /// True if the cloud says of its points what they are.
 bool has_label_field(const sensor_msgs::PointCloud2& cloud);
