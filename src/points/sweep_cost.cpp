@@ -20,8 +20,6 @@ constexpr int kBits = (2 * kRadius + 1) * (2 * kRadius + 1) - 1;
 constexpr int kScale = kLargestCost / kBits;
 /// Where no image sees the plane nothing speaks for or against it.
 constexpr Byte kUnseenCost = 48;
-constexpr int kSubpixelBits = 5;
-constexpr int kSubpixels = 1 << kSubpixelBits;
 
 /// Pixel of the other image for each pixel of the reference, on one plane.
 Eigen::Matrix3d plane_homography(const View& from, const View& to, const Eigen::Vector3d& plane) {
@@ -44,10 +42,11 @@ class WarpedImage {
         u_(static_cast<std::size_t>(gray_.cols)),
         v_(u_.size()) {}
 
-  void warp(const cv::Mat& from, const Eigen::Matrix3d& homography) {
-    for (int row = 0; row < gray_.rows; ++row) {
-      find_places(from.size(), homography.cast<float>(), row);
-      sample(from, gray_.ptr<Byte>(row));
+  /// The rows `begin` to `end` of the reference, from the other one's finer image.
+  void warp(const cv::Mat& fine, const Eigen::Matrix3d& homography, int begin, int end) {
+    for (int row = begin; row < end + 2 * kRadius; ++row) {
+      find_places(fine.size(), homography.cast<float>(), row);
+      sample(fine, gray_.ptr<Byte>(row));
     }
   }
 
@@ -58,11 +57,11 @@ class WarpedImage {
   std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(gray_.step); }
 
  private:
-  /// In units of 1 / kSubpixels pixels, held within the image.
-  void find_places(const cv::Size& size, const Eigen::Matrix3f& h, int row) {
+  /// The nearest pixels of the finer image, held within it.
+  void find_places(const cv::Size& fine, const Eigen::Matrix3f& h, int row) {
     const auto y = static_cast<float>(row - kRadius);
-    const float last_u = static_cast<float>(size.width) - 1.04F;
-    const float last_v = static_cast<float>(size.height) - 1.04F;
+    const float last_u = static_cast<float>(fine.width) - 0.5F;
+    const float last_v = static_cast<float>(fine.height) - 0.5F;
     const float u0 = h(0, 1) * y + h(0, 2);
     const float v0 = h(1, 1) * y + h(1, 2);
     const float w0 = h(2, 1) * y + h(2, 2);
@@ -70,31 +69,33 @@ class WarpedImage {
     const float hv = h(1, 0);
     const float hw = h(2, 0);
     Byte* seen = seen_.ptr<Byte>(row);
+    int* us = u_.data();
+    int* vs = v_.data();
     const int count = gray_.cols;
     for (int n = 0; n < count; ++n) {
       const auto x = static_cast<float>(n - kRadius);
       const float w = hw * x + w0;
       const float inverse = 1.0F / std::max(w, 0.05F);
-      const float u = (hu * x + u0) * inverse;
-      const float v = (hv * x + v0) * inverse;
+      // Small pixel u has its centre at 2 u + 0.5 of the finer image; rounded to the nearest.
+      const float u = 2.0F * (hu * x + u0) * inverse + 1.0F;
+      const float v = 2.0F * (hv * x + v0) * inverse + 1.0F;
       const float inside_u = std::min(std::max(u, 0.0F), last_u);
       const float inside_v = std::min(std::max(v, 0.0F), last_v);
       const bool is_seen = (w > 0.05F) & (u == inside_u) & (v == inside_v);
       seen[n] = is_seen ? 255 : 0;
-      u_[n] = static_cast<int>(inside_u * kSubpixels);
-      v_[n] = static_cast<int>(inside_v * kSubpixels);
+      us[n] = static_cast<int>(inside_u);
+      vs[n] = static_cast<int>(inside_v);
     }
   }
 
-  void sample(const cv::Mat& from, Byte* to) const {
-    for (int n = 0; n < gray_.cols; ++n) {
-      const int a = u_[n] & (kSubpixels - 1);
-      const int b = v_[n] & (kSubpixels - 1);
-      const Byte* upper = from.ptr<Byte>(v_[n] >> kSubpixelBits) + (u_[n] >> kSubpixelBits);
-      const Byte* lower = upper + from.step;
-      const int top = upper[0] * kSubpixels + a * (upper[1] - upper[0]);
-      const int bottom = lower[0] * kSubpixels + a * (lower[1] - lower[0]);
-      to[n] = static_cast<Byte>((top * kSubpixels + b * (bottom - top)) >> (2 * kSubpixelBits));
+  void sample(const cv::Mat& fine, Byte* to) const {
+    const Byte* data = fine.data;
+    const auto step = static_cast<int>(fine.step);
+    const int* us = u_.data();
+    const int* vs = v_.data();
+    const int count = gray_.cols;
+    for (int n = 0; n < count; ++n) {
+      to[n] = data[vs[n] * step + us[n]];
     }
   }
 
@@ -166,31 +167,73 @@ class PlaneSweep {
   }
 
   void sweep(const Eigen::Vector3d& plane, const InverseRange& depths, Byte* costs) const {
-    const std::vector<WarpedImage> before = warp(neighbours_.before, plane);
-    const std::vector<WarpedImage> after = warp(neighbours_.after, plane);
+    std::fill_n(costs, size_.area(), Byte{kLargestCost});
+    const cv::Range rows = rows_in_range(plane, depths);
+    const std::vector<WarpedImage> before = warp(neighbours_.before, plane, rows);
+    const std::vector<WarpedImage> after = warp(neighbours_.after, plane, rows);
     SideCosts before_costs(size_.width);
     SideCosts after_costs(size_.width);
     std::vector<Byte> differing(static_cast<std::size_t>(size_.width));
-    for (int y = 0; y < size_.height; ++y) {
+    for (int y = rows.start; y < rows.end; ++y) {
       compare(before, y, &differing, &before_costs);
       compare(after, y, &differing, &after_costs);
+      const PlaneRow inverse(*this, plane, y);
       Byte* row = costs + static_cast<std::ptrdiff_t>(y) * size_.width;
       for (int x = 0; x < size_.width; ++x) {
         const float least = std::min(before_costs.mean(x), after_costs.mean(x));
-        row[x] = least > kBits ? kUnseenCost : static_cast<Byte>(least * kScale + 0.5F);
+        const float cost = least > kBits ? kUnseenCost : least * kScale + 0.5F;
+        row[x] = inverse.in_range(x, depths) ? static_cast<Byte>(cost) : Byte{kLargestCost};
       }
-      refuse_out_of_range(plane, depths, y, row);
     }
   }
 
  private:
+  /// The inverse depth changes evenly along a row.
+  struct PlaneRow {
+    float first;
+    float step;
+
+    PlaneRow(const PlaneSweep& sweep, const Eigen::Vector3d& plane, int y)
+        : first(static_cast<float>(plane.dot(sweep.camera().ray({0, y})))),
+          step(static_cast<float>(plane.x() / sweep.camera().fx)) {}
+
+    bool in_range(int x, const InverseRange& depths) const {
+      constexpr float kSlack = 1e-5F;  // share: the first and the last plane are in range
+      const float inverse = first + step * static_cast<float>(x);
+      return (inverse >= static_cast<float>(depths.low) * (1.0F - kSlack)) &
+             (inverse <= static_cast<float>(depths.high) * (1.0F + kSlack));
+    }
+  };
+
+  const PinholeCamera& camera() const { return reference_.small_view.camera; }
+
+  /// Rows outside have no pixel in range.
+  cv::Range rows_in_range(const Eigen::Vector3d& plane, const InverseRange& depths) const {
+    cv::Range rows(0, 0);
+    for (int y = 0; y < size_.height; ++y) {
+      const double left = plane.dot(camera().ray({0, y}));
+      const double right = plane.dot(camera().ray({size_.width - 1, y}));
+      if (std::max(left, right) >= depths.low && std::min(left, right) <= depths.high) {
+        rows.start = rows.empty() ? y : rows.start;
+        rows.end = y + 1;
+      }
+    }
+    return rows;
+  }
+
   std::vector<WarpedImage> warp(const std::vector<const SweepImage*>& images,
-                                const Eigen::Vector3d& plane) const {
+                                const Eigen::Vector3d& plane,
+                                const cv::Range& rows) const {
     std::vector<WarpedImage> warped;
+    if (rows.empty()) {
+      return warped;
+    }
     for (const SweepImage* image : images) {
       warped.emplace_back(size_);
-      warped.back().warp(image->small_gray,
-                         plane_homography(reference_.small_view, image->small_view, plane));
+      warped.back().warp(image->fine_gray,
+                         plane_homography(reference_.small_view, image->small_view, plane),
+                         rows.start,
+                         rows.end);
     }
     return warped;
   }
@@ -205,19 +248,6 @@ class PlaneSweep {
     for (const WarpedImage& image : images) {
       compare_census(row, stride, image.row(y), image.stride(), size_.width, differing->data());
       costs->add(differing->data(), image.seen(y));
-    }
-  }
-
-  void refuse_out_of_range(const Eigen::Vector3d& plane,
-                           const InverseRange& depths,
-                           int y,
-                           Byte* row) const {
-    constexpr double kSlack = 1e-9;
-    for (int x = 0; x < size_.width; ++x) {
-      const double inverse = plane.dot(reference_.small_view.camera.ray({x, y}));
-      if (inverse < depths.low - kSlack || inverse > depths.high + kSlack) {
-        row[x] = kLargestCost;
-      }
     }
   }
 

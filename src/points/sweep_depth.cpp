@@ -11,6 +11,7 @@
 #include "sweep_smoothing.h"
 #include "sweep_winners.h"
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace facet_mapping::detail {
 namespace {
@@ -19,23 +20,28 @@ constexpr double kOtherDepth = 3.0;  // planes; so far apart two depths are not 
 constexpr int kUnitsPerPlane = 16;   // of the whole numbers that speckles are found in
 constexpr double kJump = 2.5;        // planes; neighbours that differ more are a depth edge
 constexpr int kEdgeMargin = 1;       // pixels so near to a depth edge are dropped
+constexpr int kMedianSize = 3;         // pixels; evens out single planes
 constexpr int kSpeckleSize = 60;     // pixels; smaller regions of like depth are dropped
 
-/// Sets small regions and what is at a depth edge to NaN. `step`: 1/m from a plane to the next.
-void remove_doubtful(double step, cv::Mat* inverse_depth) {
-  const double units = kUnitsPerPlane / step;
-  cv::Mat whole(inverse_depth->size(), CV_16SC1);
-  for (int y = 0; y < whole.rows; ++y) {
-    for (int x = 0; x < whole.cols; ++x) {
-      const float value = inverse_depth->at<float>(y, x);
-      whole.at<std::int16_t>(y, x) =
-          std::isfinite(value) ? cv::saturate_cast<std::int16_t>(value * units) : std::int16_t{0};
-    }
-  }
+/// CV_8UC1, non-zero in small regions of like depth. `planes`: inverse depths counted in planes.
+cv::Mat find_speckles(const cv::Mat& planes) {
+  cv::Mat whole;
+  planes.convertTo(whole, CV_16SC1, kUnitsPerPlane);
   cv::filterSpeckles(whole, 0, kSpeckleSize, kJump * kUnitsPerPlane);
-  const auto unknown = cv::Scalar(std::numeric_limits<float>::quiet_NaN());
-  inverse_depth->setTo(unknown, whole == 0);
-  inverse_depth->setTo(unknown, find_depth_edges(*inverse_depth / step, kJump, kEdgeMargin));
+  return whole == 0;
+}
+
+/// The winners' depths, NaN where they are doubtful. `step`: 1/m from a plane to the next.
+cv::Mat sure_depths(const SweepWinners& winners, double step, double min_uniqueness) {
+  const cv::Scalar unknown(std::numeric_limits<float>::quiet_NaN());
+  const cv::Mat unsure = winners.unsure(min_uniqueness);
+  cv::Mat depths;
+  cv::medianBlur(winners.inverse_depths(), depths, kMedianSize);
+  const cv::Mat edges = find_depth_edges(depths / step, kJump, kEdgeMargin);
+  depths.setTo(0.0, unsure);
+  const cv::Mat speckles = find_speckles(depths / step);
+  depths.setTo(unknown, unsure | edges | speckles);
+  return depths;
 }
 
 class Sweep {
@@ -96,7 +102,7 @@ void sweep_image(const SweepNeighbours& neighbours,
       reference->small_gray.size(), reference->small_view.camera, kOtherDepth * step);
   sweep.add(facing, &winners);
   if (directions->empty() && config.max_directions > 0) {
-    reference->inverse_depth = winners.inverse_depths(config.min_uniqueness);
+    reference->inverse_depth = sure_depths(winners, step, config.min_uniqueness);
     directions->add(*reference);
   }
   for (const PlaneDirection& direction :
@@ -108,8 +114,7 @@ void sweep_image(const SweepNeighbours& neighbours,
       report->planes += planes.inverse_distances.size();
     }
   }
-  reference->inverse_depth = winners.inverse_depths(config.min_uniqueness);
-  remove_doubtful(step, &reference->inverse_depth);
+  reference->inverse_depth = sure_depths(winners, step, config.min_uniqueness);
   directions->add(*reference);
 }
 

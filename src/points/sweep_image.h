@@ -19,6 +19,7 @@ struct SweepImage {
   double stamp = 0.0;
   View small_view;
   cv::Mat small_gray;     // CV_8UC1, as swept
+  cv::Mat fine_gray;      // CV_8UC1, twice as large: its nearest pixel is near enough
   cv::Mat inverse_depth;  // CV_32F, as swept, 1/m, NaN where unknown; empty until swept
 };
 

@@ -23,13 +23,14 @@ using detail::SweepNeighbours;
 
 SweepImage make_image(
     const cv::Mat& gray, const View& view, const cv::Mat& labels, double stamp, int widest_px) {
-  SweepImage image{view, gray.clone(), labels.clone(), stamp, view, {}, {}};
+  SweepImage image{view, gray.clone(), labels.clone(), stamp, view, {}, {}, {}};
   cv::Size size = gray.size();
   while (size.width > widest_px && size.height >= 2) {
     size = {(size.width + 1) / 2, (size.height + 1) / 2};
   }
   image.small_view.camera = view.camera.resized(size.width, size.height);
   cv::resize(image.gray, image.small_gray, size, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(image.small_gray, image.fine_gray, size * 2, 0.0, 0.0, cv::INTER_LINEAR);
   return image;
 }
 

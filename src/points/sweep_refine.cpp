@@ -21,7 +21,9 @@ constexpr int kMostIterations = 4;
 constexpr double kSmallChange = 0.02;   // pixels; a smaller step ends the iteration
 constexpr double kLargestChange = 2.5;  // pixels; farther away is another minimum
 constexpr float kLeastContrast = 1.5F;  // standard deviation of a patch, grey values
+constexpr float kNoContrast = 0.5F;     // as of a saturated sky: there depths are guesses
 constexpr float kUnlike = 0.3F;         // at the start; such images do not see the patch
+constexpr double kFlatPrecision = 0.5;  // of a depth that the texture does not refine
 constexpr float kHalf = 0.5F;           // pixels to either side that the slope is measured over
 
 using Values = std::array<float, kArea>;
@@ -162,7 +164,7 @@ bool sample_reference(const cv::Mat& gray, const Eigen::Vector2d& pixel, Values*
       (*values)[k++] = gray.at<std::uint8_t>(y0 + y, x0 + x);
     }
   }
-  return normalize(values) > kLeastContrast * kSide;
+  return true;
 }
 
 /// Iterates on the images that see the patch.
@@ -172,12 +174,12 @@ class Refinement {
       : wanted_(wanted), images_(std::move(images)), start_(inverse_depth), now_(inverse_depth) {}
 
   /// Drops the images that do not show the patch; false if too few are left.
-  bool choose() {
+  bool choose(bool is_flat) {
     std::vector<OtherImage> seeing;
     for (OtherImage& image : images_) {
       if (image.sample(start_)) {
         ++having_;
-        if (image.likeness(wanted_) > kUnlike) {
+        if (is_flat || image.likeness(wanted_) > kUnlike) {
           seeing.push_back(image);
         }
       }
@@ -222,6 +224,14 @@ class Refinement {
     return refined;
   }
 
+  /// Nothing can be compared; the depth is only as good as the sweep's.
+  RefinedDepth unrefined() const {
+    RefinedDepth unrefined = result();
+    unrefined.likeness = 1.0;
+    unrefined.precision *= kFlatPrecision;
+    return unrefined;
+  }
+
  private:
   bool sample_all(double inverse_depth) {
     return std::all_of(images_.begin(), images_.end(), [&](OtherImage& image) {
@@ -245,14 +255,22 @@ RefinedDepth refine_depth(const SweepImage& reference,
   if (!sample_reference(reference.gray, patch.pixel, &wanted)) {
     return {};
   }
+  const float contrast = normalize(&wanted) / kSide;
+  if (contrast < kNoContrast) {
+    return {};
+  }
+  const bool is_flat = contrast < kLeastContrast;
   std::vector<OtherImage> images;
   images.reserve(others.size());
   for (const SweepImage* other : others) {
     images.emplace_back(reference, *other, patch);
   }
   Refinement refinement(wanted, std::move(images), patch.inverse_depth);
-  if (!refinement.choose()) {
+  if (!refinement.choose(is_flat)) {
     return {};
+  }
+  if (is_flat) {
+    return refinement.unrefined();
   }
   refinement.iterate();
   return refinement.result();

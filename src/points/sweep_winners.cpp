@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -70,14 +69,23 @@ void SweepWinners::merge(const Winner& challenger, Winner* winner) const {
   *winner = best;
 }
 
-cv::Mat SweepWinners::inverse_depths(double min_uniqueness) const {
+cv::Mat SweepWinners::inverse_depths() const {
   cv::Mat result(size_, CV_32FC1);
-  const auto factor = static_cast<float>(1.0 + min_uniqueness);
-  std::transform(winners_.begin(), winners_.end(), result.begin<float>(), [&](const Winner& w) {
-    return w.other_cost >= factor * w.cost && w.cost < 1e8F
-               ? w.inverse_depth
-               : std::numeric_limits<float>::quiet_NaN();
+  std::transform(winners_.begin(), winners_.end(), result.begin<float>(), [](const Winner& w) {
+    return w.inverse_depth;
   });
+  return result;
+}
+
+cv::Mat SweepWinners::unsure(double min_uniqueness) const {
+  cv::Mat result(size_, CV_8UC1);
+  const auto factor = static_cast<float>(1.0 + min_uniqueness);
+  std::transform(winners_.begin(),
+                 winners_.end(),
+                 result.begin<std::uint8_t>(),
+                 [&](const Winner& w) -> std::uint8_t {
+                   return w.other_cost >= factor * w.cost && w.inverse_depth > 0.0F ? 0 : 255;
+                 });
   return result;
 }
 

@@ -18,9 +18,10 @@ class SweepWinners {
   /// Takes the smoothed costs of one direction's planes (smooth_costs()) into account.
   void add(const cv::Mat& sums, const SweepPlanes& planes);
 
-  /// CV_32F, 1/m: the parabola's lowest point about the best plane; NaN where another depth's cost
-  /// is not larger by the share `min_uniqueness`.
-  cv::Mat inverse_depths(double min_uniqueness) const;
+  /// CV_32F, 1/m: the parabola's lowest point about the best plane.
+  cv::Mat inverse_depths() const;
+  /// CV_8UC1, 255 where another depth's cost is not larger by the share `min_uniqueness`.
+  cv::Mat unsure(double min_uniqueness) const;
 
  private:
   struct Winner {
