@@ -20,7 +20,7 @@ constexpr double kOtherDepth = 3.0;  // planes; so far apart two depths are not 
 constexpr int kUnitsPerPlane = 16;   // of the whole numbers that speckles are found in
 constexpr double kJump = 2.5;        // planes; neighbours that differ more are a depth edge
 constexpr int kEdgeMargin = 1;       // pixels so near to a depth edge are dropped
-constexpr int kMedianSize = 3;         // pixels; evens out single planes
+constexpr int kMedianSize = 3;       // pixels; evens out single planes
 constexpr int kSpeckleSize = 60;     // pixels; smaller regions of like depth are dropped
 
 /// CV_8UC1, non-zero in small regions of like depth. `planes`: inverse depths counted in planes.

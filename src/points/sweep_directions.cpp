@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -52,6 +53,49 @@ std::optional<Eigen::Vector3d> fit_piece(const cv::Mat& inverse_depth, const cv:
   return plane;
 }
 
+using Pieces = std::vector<SceneDirections::Piece>;
+
+/// The pieces of about the same normal as the one that most agree with.
+struct Direction {
+  Eigen::Vector3d normal_sum = Eigen::Vector3d::Zero();
+  std::size_t votes = 0;
+};
+
+Direction most_voted(const Pieces& pieces) {
+  Direction best;
+  for (const SceneDirections::Piece& candidate : pieces) {
+    Direction direction;
+    for (const SceneDirections::Piece& piece : pieces) {
+      if (piece.normal.dot(candidate.normal) > kSameDirection) {
+        direction.normal_sum += piece.normal;
+        ++direction.votes;
+      }
+    }
+    best = direction.votes > best.votes ? direction : best;
+  }
+  return best;
+}
+
+/// Where the pieces of a direction are; nothing if too few are in front of it.
+std::optional<InverseRange> find_distances(const Pieces& pieces,
+                                           const Eigen::Vector3d& normal,
+                                           const Eigen::Vector3d& eye) {
+  std::vector<double> inverse;
+  for (const SceneDirections::Piece& piece : pieces) {
+    const double distance = normal.dot(piece.center - eye);
+    if (piece.normal.dot(normal) > kSameDirection && distance > 0.0) {
+      inverse.push_back(1.0 / distance);
+    }
+  }
+  if (inverse.size() < kLeastPieces) {
+    return std::nullopt;
+  }
+  std::sort(inverse.begin(), inverse.end());
+  const auto left_out = static_cast<std::size_t>(kLeftOut * static_cast<double>(inverse.size()));
+  return InverseRange{inverse[left_out] / kMargin,
+                      inverse[inverse.size() - 1 - left_out] * kMargin};
+}
+
 }  // namespace
 
 void SceneDirections::add(const SweepImage& image) {
@@ -78,49 +122,25 @@ void SceneDirections::add(const SweepImage& image) {
 }
 
 std::vector<PlaneDirection> SceneDirections::strongest(const View& view, int most) const {
-  std::vector<Piece> pieces;
+  Pieces pieces;
   const Eigen::Vector3d axis = view.world_from_cam.linear().col(2);
-  for (const std::vector<Piece>& image : images_) {
+  for (const Pieces& image : images_) {
     std::copy_if(image.begin(), image.end(), std::back_inserter(pieces), [&](const Piece& piece) {
       return piece.normal.dot(axis) < kFacing;
     });
   }
+  const double least =
+      std::max(static_cast<double>(kLeastPieces), kLeastShare * static_cast<double>(pieces.size()));
   std::vector<PlaneDirection> found;
-  const double all = static_cast<double>(pieces.size());
-  while (found.size() < static_cast<std::size_t>(most) && !pieces.empty()) {
-    std::size_t best_votes = 0;
-    Eigen::Vector3d best_sum = Eigen::Vector3d::Zero();
-    for (const Piece& candidate : pieces) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      std::size_t votes = 0;
-      for (const Piece& piece : pieces) {
-        if (piece.normal.dot(candidate.normal) > kSameDirection) {
-          sum += piece.normal;
-          ++votes;
-        }
-      }
-      if (votes > best_votes) {
-        best_votes = votes;
-        best_sum = sum;
-      }
-    }
-    if (best_votes < kLeastPieces || static_cast<double>(best_votes) < kLeastShare * all) {
+  while (found.size() < static_cast<std::size_t>(most)) {
+    const Direction direction = most_voted(pieces);
+    if (static_cast<double>(direction.votes) < least) {
       break;
     }
-    const Eigen::Vector3d normal = best_sum.normalized();
-    std::vector<double> inverse;
-    for (const Piece& piece : pieces) {
-      const double distance = normal.dot(piece.center - view.center());
-      if (piece.normal.dot(normal) > kSameDirection && distance > 0.0) {
-        inverse.push_back(1.0 / distance);
-      }
-    }
-    if (inverse.size() >= kLeastPieces) {
-      std::sort(inverse.begin(), inverse.end());
-      const auto left_out = static_cast<std::size_t>(kLeftOut * inverse.size());
-      found.push_back(
-          {view.world_from_cam.linear().transpose() * normal,
-           {inverse[left_out] / kMargin, inverse[inverse.size() - 1 - left_out] * kMargin}});
+    const Eigen::Vector3d normal = direction.normal_sum.normalized();
+    const auto distances = find_distances(pieces, normal, view.center());
+    if (distances) {
+      found.push_back({view.world_from_cam.linear().transpose() * normal, *distances});
     }
     pieces.erase(std::remove_if(pieces.begin(),
                                 pieces.end(),

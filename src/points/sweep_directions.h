@@ -29,11 +29,12 @@ class SceneDirections {
   /// nearly faces the camera, whose planes are swept anyway.
   std::vector<PlaneDirection> strongest(const View& view, int most) const;
 
- private:
   struct Piece {
     Eigen::Vector3d normal;  // world, away from the camera
     Eigen::Vector3d center;  // world
   };
+
+ private:
   std::deque<std::vector<Piece>> images_;
 };
 

@@ -53,7 +53,7 @@ double median_depth(const cv::Mat& inverse_depth) {
 
 class PlaneSweeper::State {
  public:
-  explicit State(const SweepConfig& config) : config_(config) { forget(); }
+  explicit State(SweepConfig config) : config_(std::move(config)) { forget(); }
 
   std::vector<PointFrame> add(const cv::Mat& gray,
                               const View& view,

@@ -20,21 +20,22 @@ namespace facet_mapping {
 struct SweepConfig {
   int sweep_width_px = 800;  ///< wider images are swept at 1/2, 1/4 ... of their size; the points
                              ///< are then refined at full size
-  int window = 3;            ///< used images before and after that a used image is compared with
+  int window = 2;            ///< used images before and after that a used image is compared with
   double min_motion = 0.04;  ///< images that moved less since the last used one are not used
                              ///< (share of the median depth)
   double max_parallax_deg = 45.0;  ///< images seen under a larger angle are not compared
-  double plane_step_px = 1.0;  ///< most motion of a pixel from a plane to the next, pixels as swept
-  int max_planes = 128;        ///< of one direction; the step grows where more would be needed
-  int max_directions = 3;      ///< directions of the scene (ground, facades) that are swept besides
-                               ///< the planes that face the camera
+  double plane_step_px =
+      0.75;                ///< most motion of a pixel from a plane to the next, pixels as swept
+  int max_planes = 192;    ///< of one direction; the step grows where more would be needed
+  int max_directions = 3;  ///< directions of the scene (ground, facades) that are swept besides
+                           ///< the planes that face the camera
   double min_uniqueness = 0.05;        ///< the second-best cost must be larger by this share
-  double min_likeness = 0.6;           ///< least normalised cross-correlation at full size, 0 to 1
+  double min_likeness = 0.7;           ///< least normalised cross-correlation at full size, 0 to 1
   int min_agreeing = 2;                ///< depths of other used images that must agree with a point
-  double max_disagreement_px = 1.0;    ///< ... to within this motion between the images
+  double max_disagreement_px = 0.8;    ///< ... to within this motion between the images
   double pixel_sigma = 0.5;            ///< noise of a match in pixels, which sigma comes from
   double max_relative_sigma = 0.05;    ///< points with sigma / depth above this are dropped
-  double min_depth_m = 1.0;            ///< nearer points are dropped
+  double min_depth_m = 2.0;            ///< nearer points are dropped
   double max_depth_m = 60.0;           ///< farther points are dropped
   int cell_px = 5;                     ///< at most one point per cell of this size ...
   double min_gradient = 4.0;           ///< ... the pixel of strongest gradient, if above this
