@@ -41,8 +41,9 @@ std::vector<LabeledPoint> thin_cloud(const std::vector<Eigen::Vector3f>& scan,
                                      CloudReport* report = nullptr);
 
 struct ImageLabelConfig {
-  int occluder_px = 3;            ///< a point hides what lies this near to it in the image ...
-  double occlusion_margin = 0.1;  ///< ... and farther away by more than this share of its depth
+  int occluder_px = 7;             ///< nearer points on two opposite sides, this near, hide a point
+  int edge_px = 3;                 ///< so does one side, unless the point's surface goes on from it
+  double occlusion_margin = 0.15;  ///< nearer: by more than this share of the depth
   std::vector<Label> excluded_labels;  ///< classes that no LiDAR return can be of (sky)
 };
 
