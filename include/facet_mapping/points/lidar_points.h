@@ -33,8 +33,8 @@ struct CloudReport {
   std::size_t points = 0;  ///< kept
 };
 
-/// Drops isolated points of a scan (sensor frame, metres) and thins the rest. What is kept are
-/// measured points, in the order of the scan: of each cube the one nearest to its centre. All
+/// Thins a scan (sensor frame, metres) and drops the points that are isolated in it. What is kept
+/// are measured points, in the order of the scan: of each cube the one nearest to its centre. All
 /// labels are kUnlabelled. Throws std::invalid_argument on a config out of range.
 std::vector<LabeledPoint> thin_cloud(const std::vector<Eigen::Vector3f>& scan,
                                      const CloudConfig& config,
