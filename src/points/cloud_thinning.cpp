@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "rules.h"
 #include <pcl/filters/radius_outlier_removal.h>
@@ -46,26 +50,27 @@ Cloud select_range(const Cloud& scan, const CloudConfig& config, CloudReport& re
   return kept;
 }
 
-Cloud drop_isolated(Cloud points, const CloudConfig& config, CloudReport& report) {
-  if (points.empty() || config.outlier_radius_m == 0.0 || config.outlier_neighbors == 0) {
-    return points;
+/// Of the points `candidates`, those that have enough others among all points.
+pcl::Indices drop_isolated(const Cloud& points,
+                           pcl::Indices candidates,
+                           const CloudConfig& config,
+                           CloudReport& report) {
+  if (candidates.empty() || config.outlier_radius_m == 0.0 || config.outlier_neighbors == 0) {
+    return candidates;
   }
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   for (const Eigen::Vector3f& point : points) {
     cloud->emplace_back(point.x(), point.y(), point.z());
   }
+  report.isolated = candidates.size();
   pcl::RadiusOutlierRemoval<pcl::PointXYZ> filter;
   filter.setInputCloud(cloud);
+  filter.setIndices(std::make_shared<pcl::Indices>(std::move(candidates)));
   filter.setRadiusSearch(config.outlier_radius_m);
   filter.setMinNeighborsInRadius(config.outlier_neighbors);
-  pcl::Indices indices;
-  filter.filter(indices);
-  Cloud kept;
-  kept.reserve(indices.size());
-  for (const auto index : indices) {
-    kept.push_back(points[index]);
-  }
-  report.isolated = points.size() - kept.size();
+  pcl::Indices kept;
+  filter.filter(kept);
+  report.isolated -= kept.size();
   return kept;
 }
 
@@ -87,9 +92,12 @@ float distance_from_center(const Eigen::Vector3f& point, float voxel) {
 }
 
 /// One measured point per cube, the nearest to its centre, in the order of the input.
-Cloud thin(Cloud points, double voxel_m, CloudReport& report) {
+pcl::Indices thin(const Cloud& points, double voxel_m, CloudReport& report) {
+  pcl::Indices kept;
   if (voxel_m == 0.0) {
-    return points;
+    kept.resize(points.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    return kept;
   }
   const auto voxel = static_cast<float>(voxel_m);
   std::unordered_map<std::uint64_t, std::size_t> best;  // voxel -> index of its point
@@ -101,13 +109,11 @@ Cloud thin(Cloud points, double voxel_m, CloudReport& report) {
       entry->second = i;
     }
   }
-  Cloud kept;
   kept.reserve(best.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (best.at(voxel_of(points[i], voxel)) == i) {
-      kept.push_back(points[i]);
-    }
+  for (const auto& entry : best) {
+    kept.push_back(static_cast<pcl::index_t>(entry.second));
   }
+  std::sort(kept.begin(), kept.end());
   report.thinned = points.size() - kept.size();
   return kept;
 }
@@ -119,12 +125,14 @@ std::vector<LabeledPoint> thin_cloud(const std::vector<Eigen::Vector3f>& scan,
                                      CloudReport* report) {
   check_config(config);
   CloudReport counts;
-  const Cloud kept = thin(
-      drop_isolated(select_range(scan, config, counts), config, counts), config.voxel_m, counts);
+  const Cloud candidates = select_range(scan, config, counts);
+  // Thinned first: searching for the neighbours of every point of a scan takes most of the time.
+  const pcl::Indices kept =
+      drop_isolated(candidates, thin(candidates, config.voxel_m, counts), config, counts);
   std::vector<LabeledPoint> points;
   points.reserve(kept.size());
-  for (const Eigen::Vector3f& position : kept) {
-    points.push_back({position, kUnlabelled, static_cast<float>(config.sigma_m)});
+  for (const auto index : kept) {
+    points.push_back({candidates[index], kUnlabelled, static_cast<float>(config.sigma_m)});
   }
   counts.points = points.size();
   if (report != nullptr) {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "excluded_labels.h"
 #include "rules.h"
-#include <opencv2/imgproc.hpp>
 
 #include "facet_mapping/points/lidar_points.h"
 
@@ -32,6 +32,7 @@ void check_input(const Eigen::Isometry3d& cam_from_sensor,
   rules.require(is_rigid(cam_from_sensor), "cam_from_sensor must be rigid and finite");
   rules.require(config.occluder_px >= 0 && config.occluder_px <= 100,
                 "occluder_px must be from 0 to 100");
+  rules.require(config.edge_px >= 0 && config.edge_px <= 100, "edge_px must be from 0 to 100");
   rules.require(config.occlusion_margin >= 0.0, "occlusion_margin must not be negative");
   for (const Occluders& others : occluders) {
     rules.require(others.points != nullptr && is_rigid(others.cam_from_points),
@@ -72,22 +73,80 @@ void draw_nearer(const std::vector<Projection>& projections, cv::Mat* depth) {
   }
 }
 
-/// Depth of the nearest point around each pixel (CV_32F, metres; infinity where there is none).
+/// Depth of the nearest point on each pixel (CV_32F, metres; infinity where there is none).
 cv::Mat nearest_depth(const std::vector<Projection>& projections,
                       const std::vector<Occluders>& occluders,
-                      const PinholeCamera& camera,
-                      int radius_px) {
+                      const PinholeCamera& camera) {
   cv::Mat depth(
       camera.height, camera.width, CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
   draw_nearer(projections, &depth);
   for (const Occluders& others : occluders) {
     draw_nearer(project_all(*others.points, others.cam_from_points, camera), &depth);
   }
-  if (radius_px > 0) {
-    const int side = 2 * radius_px + 1;
-    cv::erode(depth, depth, cv::Mat::ones(side, side, CV_8UC1));
-  }
   return depth;
+}
+
+/// Nearest and farthest depth in a rectangle; infinity and 0 if nothing is there.
+struct DepthRange {
+  float nearest = std::numeric_limits<float>::infinity();
+  float farthest = 0.0F;
+};
+
+DepthRange range_in(const cv::Mat& depth, const cv::Rect& rectangle) {
+  const cv::Rect part = rectangle & cv::Rect(0, 0, depth.cols, depth.rows);
+  DepthRange range;
+  for (int y = part.y; y < part.y + part.height; ++y) {
+    const auto* row = depth.ptr<float>(y);
+    for (int x = part.x; x < part.x + part.width; ++x) {
+      if (std::isfinite(row[x])) {
+        range.nearest = std::min(range.nearest, row[x]);
+        range.farthest = std::max(range.farthest, row[x]);
+      }
+    }
+  }
+  return range;
+}
+
+constexpr int kAside = 1;  // pixels to either side of a line through the point
+constexpr int kWidth = 2 * kAside + 1;
+
+/// The two sides of a pixel along a row or a column.
+std::array<DepthRange, 2> sides_of(const cv::Mat& depth, const cv::Point& p, int reach, bool row) {
+  if (row) {
+    return {range_in(depth, {p.x - reach, p.y - kAside, reach, kWidth}),
+            range_in(depth, {p.x + 1, p.y - kAside, reach, kWidth})};
+  }
+  return {range_in(depth, {p.x - kAside, p.y - reach, kWidth, reach}),
+          range_in(depth, {p.x - kAside, p.y + 1, kWidth, reach})};
+}
+
+/// True if the surface goes on to the other side as it comes from the near one, as a road does:
+/// along a plane the inverse of the depth is linear in the image.
+bool goes_on(float depth, const DepthRange& near_side, const DepthRange& other_side) {
+  const float step = 1.0F / near_side.nearest - 1.0F / depth;
+  return other_side.farthest > 0.0F && 1.0F / depth - 1.0F / other_side.farthest > 0.5F * step;
+}
+
+bool is_hidden_along(const Projection& seen,
+                     const cv::Mat& depth,
+                     const ImageLabelConfig& config,
+                     float limit,
+                     bool row) {
+  const auto far_sides = sides_of(depth, seen.pixel, config.occluder_px, row);
+  if (far_sides[0].nearest < limit && far_sides[1].nearest < limit) {
+    return true;
+  }
+  const auto [a, b] = sides_of(depth, seen.pixel, config.edge_px, row);
+  return (a.nearest < limit && !goes_on(seen.depth, a, b)) ||
+         (b.nearest < limit && !goes_on(seen.depth, b, a));
+}
+
+/// Hidden: something is clearly nearer on the same pixel, within occluder_px on two opposite sides,
+/// or within edge_px on one, unless there it is a part of the point's own surface.
+bool is_hidden(const Projection& seen, const cv::Mat& depth, const ImageLabelConfig& config) {
+  const float limit = seen.depth / static_cast<float>(1.0 + config.occlusion_margin);
+  return depth.at<float>(seen.pixel) < limit || is_hidden_along(seen, depth, config, limit, true) ||
+         is_hidden_along(seen, depth, config, limit, false);
 }
 
 }  // namespace
@@ -100,12 +159,11 @@ std::size_t label_points_from_image(std::vector<LabeledPoint>& points,
                                     const std::vector<Occluders>& occluders) {
   check_input(cam_from_sensor, camera, labels, config, occluders);
   const std::vector<Projection> projections = project_all(points, cam_from_sensor, camera);
-  const cv::Mat nearest = nearest_depth(projections, occluders, camera, config.occluder_px);
-  const auto farthest = static_cast<float>(1.0 + config.occlusion_margin);
+  const cv::Mat nearest = nearest_depth(projections, occluders, camera);
   std::size_t labelled = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Projection& seen = projections[i];
-    if (seen.depth <= 0.0F || seen.depth > farthest * nearest.at<float>(seen.pixel)) {
+    if (seen.depth <= 0.0F || is_hidden(seen, nearest, config)) {
       continue;
     }
     const Label label = labels.at<Label>(seen.pixel);

@@ -87,13 +87,18 @@ void add_occlusion(ParameterTable* table, LidarPointsNodeConfig* c) {
   table->add("occluder_px",
              &c->labels.occluder_px,
              "px",
-             "a point hides what lies this near to it in the image: about the distance of two scan "
-             "lines ...",
+             "nearer points on two opposite sides, this near in the image, hide a point from the "
+             "camera: at least the distance of two scan lines",
+             {0, 100});
+  table->add("edge_px",
+             &c->labels.edge_px,
+             "px",
+             "so do those on one side, this near, unless the point's surface goes on from them",
              {0, 100});
   table->add("occlusion_margin",
              &c->labels.occlusion_margin,
              "",
-             "... and farther away by more than this share of its depth",
+             "nearer means by more than this share of the depth",
              kNotNegative);
   table->add(
       "occluder_scans",

@@ -5,25 +5,6 @@
 #include <utility>
 
 namespace facet_mapping {
-namespace {
-
-std::vector<Eigen::Vector3f> positions_of(const std::vector<LabeledPoint>& points) {
-  std::vector<Eigen::Vector3f> positions;
-  positions.reserve(points.size());
-  for (const LabeledPoint& point : points) {
-    positions.push_back(point.position);
-  }
-  return positions;
-}
-
-void add_to(const CloudReport& more, CloudReport* sum) {
-  sum->not_finite += more.not_finite;
-  sum->out_of_range += more.out_of_range;
-  sum->isolated += more.isolated;
-  sum->thinned += more.thinned;
-}
-
-}  // namespace
 
 std::vector<PointFrame> LidarPointsWorker::work(const LidarJob& job, LidarJobReport* report) {
   const SensorPath path(job.map_from_sensor, config_.max_extrapolation_s);
@@ -43,21 +24,22 @@ std::vector<PointFrame> LidarPointsWorker::work(const LidarJob& job, LidarJobRep
   return frames;
 }
 
-/// `dense`: the clean points before they are thinned, which hide more than those that are left.
+/// `dense`: all points in range, which hide more than those that are left.
 PointFrame LidarPointsWorker::clean(const CompensatedScan& scan,
                                     std::vector<LabeledPoint>* dense,
                                     CloudReport* report) const {
-  CloudConfig without_thinning = config_.cloud;
-  without_thinning.voxel_m = 0.0;
+  CloudConfig range_only = config_.cloud;
+  range_only.voxel_m = 0.0;
+  range_only.outlier_radius_m = 0.0;
+  *dense = thin_cloud(scan.points, range_only);
   CloudReport counts;
-  *dense = thin_cloud(scan.points, without_thinning, &counts);
-  add_to(counts, report);
-  CloudConfig thinning_only = config_.cloud;
-  thinning_only.outlier_radius_m = 0.0;
   PointFrame frame{scan.stamp, scan.world_from_sensor, {}};
-  frame.points = thin_cloud(positions_of(*dense), thinning_only, &counts);
-  add_to(counts, report);
-  report->points += frame.points.size();
+  frame.points = thin_cloud(scan.points, config_.cloud, &counts);
+  report->not_finite += counts.not_finite;
+  report->out_of_range += counts.out_of_range;
+  report->isolated += counts.isolated;
+  report->thinned += counts.thinned;
+  report->points += counts.points;
   return frame;
 }
 

@@ -178,6 +178,38 @@ TEST_F(LabelFromImage, LeavesHiddenPointsAlone) {
   EXPECT_EQ(points[2].label, 1) << "as good as at the same depth";
 }
 
+TEST_F(LabelFromImage, HidesBetweenScanLinesButNotBesideAnObject) {
+  // A pole's scan lines are 6 px apart; far points are seen between them and 5 px to the right.
+  const auto at_pixel = [](double column, double row, float depth) {
+    return at(depth,
+              static_cast<float>(-(column - 39.5) / 50.0 * depth),
+              static_cast<float>(0.5 - (row - 29.5) / 50.0 * depth));
+  };
+  std::vector<LabeledPoint> points{
+      at_pixel(30, 20, 30), at_pixel(35, 20, 30), at_pixel(32, 17, 30)};
+  for (const double row : {11.0, 17.0, 23.0, 29.0}) {
+    points.push_back(at_pixel(30, row, 5));
+  }
+  EXPECT_EQ(label(points), 5U);
+  EXPECT_EQ(points[0].label, kUnlabelled) << "between two lines";
+  EXPECT_EQ(points[1].label, 1) << "beside the pole";
+  EXPECT_EQ(points[2].label, kUnlabelled) << "too near to its edge";
+  config_.edge_px = 0;
+  points[2].label = kUnlabelled;
+  label(points);
+  EXPECT_EQ(points[2].label, 1);
+}
+
+TEST_F(LabelFromImage, RoadDoesNotHideItself) {
+  // From 0.5 m above a road, a row apart; depth changes by far more than the margin per row.
+  std::vector<LabeledPoint> points;
+  for (double row = 31.0; row < 60.0; row += 1.0) {
+    const double depth = 0.5 * 50.0 / (row - 29.5);
+    points.push_back(at(static_cast<float>(depth), 1e-3F, 0.0F));
+  }
+  EXPECT_GE(label(points), points.size() - 2) << "but for the last rows before the horizon";
+}
+
 TEST_F(LabelFromImage, OtherScansHideToo) {
   std::vector<LabeledPoint> points{at(20, 1.0F, 0.5F), at(20, -8.0F, 0.5F)};
   // Five metres before the camera; this scan's sensor was 2 m farther back.

@@ -33,16 +33,17 @@ struct CloudReport {
   std::size_t points = 0;  ///< kept
 };
 
-/// Drops isolated points of a scan (sensor frame, metres) and thins the rest. What is kept are
-/// measured points, in the order of the scan: of each cube the one nearest to its centre. All
+/// Thins a scan (sensor frame, metres) and drops the points that are isolated in it. What is kept
+/// are measured points, in the order of the scan: of each cube the one nearest to its centre. All
 /// labels are kUnlabelled. Throws std::invalid_argument on a config out of range.
 std::vector<LabeledPoint> thin_cloud(const std::vector<Eigen::Vector3f>& scan,
                                      const CloudConfig& config,
                                      CloudReport* report = nullptr);
 
 struct ImageLabelConfig {
-  int occluder_px = 3;            ///< a point hides what lies this near to it in the image ...
-  double occlusion_margin = 0.1;  ///< ... and farther away by more than this share of its depth
+  int occluder_px = 7;             ///< nearer points on two opposite sides, this near, hide a point
+  int edge_px = 3;                 ///< so does one side, unless the point's surface goes on from it
+  double occlusion_margin = 0.15;  ///< nearer: by more than this share of the depth
   std::vector<Label> excluded_labels;  ///< classes that no LiDAR return can be of (sky)
 };
 

@@ -32,7 +32,7 @@ struct LidarPointsNodeConfig {
   double max_extrapolation_s = 0.02;  ///< beyond the poses that tf knows
   CloudConfig cloud;
   ImageLabelConfig labels;
-  int occluder_scans = 1;  ///< the newest scans, of which all points may hide others
+  int occluder_scans = 3;  ///< the newest scans, of which all points may hide others
 };
 
 /// The table points into the struct, which must outlive it.
