@@ -66,7 +66,7 @@ std::vector<float> refine_all(const cv::Mat& left,
                               const std::vector<cv::Point>& pixels) {
   std::vector<float> refined(pixels.size());
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
-    refined[i] = detail::refine_disparity(left, right, disparity, pixels[i]);
+    refined[i] = detail::refine_disparity(left, right, disparity, pixels[i]).disparity;
   });
   return refined;
 }
