@@ -26,23 +26,23 @@ constexpr int kRangeOverlap = 2;   // pixels of disparity that both searches may
 constexpr int kSameSurface = 16;   // steps; neighbours at half size closer than it interpolate
 
 /// Fixed-point disparities (CV_16SC1, 1/16 pixel) of the first image's pixels; matches lie to the
-/// left in the second image.
+/// left in the second image, as far as `disparities` says.
 cv::Mat match(const cv::Mat& first,
               const cv::Mat& second,
-              int num_disparities,
+              const cv::Range& disparities,
               int block_size,
               int uniqueness_percent) {
-  // The matcher gives nothing in its first num_disparities columns, so these are added here.
+  // The matcher gives nothing in as many first columns as the range ends at, so these are added.
   // ISOLATED: the images may be parts of larger ones.
   cv::Mat wide_first;
   cv::Mat wide_second;
   cv::copyMakeBorder(
-      first, wide_first, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+      first, wide_first, 0, 0, disparities.end, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   cv::copyMakeBorder(
-      second, wide_second, 0, 0, num_disparities, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+      second, wide_second, 0, 0, disparities.end, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   const int area = block_size * block_size;
-  const auto matcher = cv::StereoSGBM::create(0,
-                                              num_disparities,
+  const auto matcher = cv::StereoSGBM::create(disparities.start,
+                                              disparities.size(),
                                               block_size,
                                               8 * area,   // small changes: slanted surfaces
                                               32 * area,  // jumps: depth edges
@@ -54,7 +54,10 @@ cv::Mat match(const cv::Mat& first,
                                               cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat disparity;
   matcher->compute(wide_first, wide_second, disparity);
-  return disparity.colRange(num_disparities, disparity.cols);
+  if (disparities.start > 0) {  // else OpenCV's "none" is kInvalid already
+    disparity.setTo(kInvalid, disparity < disparities.start * kStepsPerPixel);
+  }
+  return disparity.colRange(disparities.end, disparity.cols);
 }
 
 cv::Mat half_size(const cv::Mat& image) {
@@ -85,9 +88,11 @@ struct HalfSize {
 HalfSize match_half_size(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config) {
   const cv::Mat small_left = half_size(left);
   const cv::Mat small_right = half_size(right);
-  const int range = half_range(config.num_disparities);
+  const cv::Range range(0, half_range(config.num_disparities));
+  // What is farther is matched at full size.
+  const cv::Range near(range.end / 2 / kRangeStep * kRangeStep, range.end);
   // Mirrored, the right image takes the left one's place and matches lie to the left again.
-  return {match(small_left, small_right, range, kHalfBlockSize, config.uniqueness_percent),
+  return {match(small_left, small_right, near, kHalfBlockSize, config.uniqueness_percent),
           mirror(match(mirror(small_right), mirror(small_left), range, kHalfBlockSize, 0))};
 }
 
@@ -160,7 +165,7 @@ cv::Mat stereo_disparity(const cv::Mat& left, const cv::Mat& right, const Stereo
   // Half the range costs half the time; what is nearer is as precise in depth at half size.
   const int fine_range = half_range(config.num_disparities);
   cv::Mat disparity =
-      match(left, right, fine_range, config.block_size, config.uniqueness_percent).clone();
+      match(left, right, {0, fine_range}, config.block_size, config.uniqueness_percent).clone();
   combine_confirmed(disparity,
                     enlarge(half.left, left.size()),
                     (fine_range - kRangeOverlap) * kStepsPerPixel,
