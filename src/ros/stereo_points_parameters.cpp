@@ -40,7 +40,7 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
   table->add("stereo/disparity_sigma_px",
              &c->disparity_sigma_px,
              "px",
-             "matching noise, from which range limit and sigma follow",
+             "noise of a typical match; sigma is this times the doubt of each match",
              kPositive);
   table->add("stereo/max_relative_sigma",
              &c->max_relative_sigma,
@@ -49,8 +49,11 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
              kPositive);
   table->add("stereo/min_depth_m", &c->min_depth_m, "m", "nearer points are dropped", kNotNegative);
   table->add("stereo/max_depth_m", &c->max_depth_m, "m", "farther points are dropped", kPositive);
-  table->add(
-      "stereo/cell_px", &c->cell_px, "px", "at most one point per cell of this size", {1, 1000});
+  table->add("stereo/cell_px",
+             &c->cell_px,
+             "px",
+             "at most one point of a class per cell of this size",
+             {1, 1000});
   table->add("stereo/min_gradient",
              &c->min_gradient,
              "1/px",
