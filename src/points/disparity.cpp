@@ -22,7 +22,7 @@ constexpr std::int16_t kInvalid = -kStepsPerPixel;             // what OpenCV wr
 constexpr int kPrefilterCap = 63;
 constexpr int kHalfBlockSize = 3;  // matching window at half size
 constexpr int kRangeStep = 16;     // OpenCV's search range is a multiple of it
-constexpr int kRangeOverlap = 2;   // pixels of disparity that both searches may find
+constexpr int kRangeOverlap = 2;   // pixels below the end of the range where a match is in doubt
 constexpr int kSameSurface = 16;   // steps; neighbours at half size closer than it interpolate
 
 /// Fixed-point disparities (CV_16SC1, 1/16 pixel) of the first image's pixels; matches lie to the
@@ -89,8 +89,8 @@ HalfSize match_half_size(const cv::Mat& left, const cv::Mat& right, const Stereo
   const cv::Mat small_left = half_size(left);
   const cv::Mat small_right = half_size(right);
   const cv::Range range(0, half_range(config.num_disparities));
-  // What is farther is matched at full size.
-  const cv::Range near(range.end / 2 / kRangeStep * kRangeStep, range.end);
+  // What is farther is matched at full size; a step less, since at its ends a search is in doubt.
+  const cv::Range near(std::max(range.end / 2 / kRangeStep - 1, 0) * kRangeStep, range.end);
   // Mirrored, the right image takes the left one's place and matches lie to the left again.
   return {match(small_left, small_right, near, kHalfBlockSize, config.uniqueness_percent),
           mirror(match(mirror(small_right), mirror(small_left), range, kHalfBlockSize, 0))};
@@ -124,7 +124,7 @@ bool is_confirmed(int disparity, int x, const std::int16_t* reverse_row, int tol
   return back > 0 && std::abs(2 * back - disparity) <= tolerance;
 }
 
-/// What the reverse direction confirms: of `fine`, else from `least_near` on of `near`.
+/// What the reverse direction confirms: of `fine` below `least_near`, else of `near` from there on.
 void combine_confirmed(cv::Mat& fine,
                        const cv::Mat& near,
                        int least_near,
@@ -136,7 +136,7 @@ void combine_confirmed(cv::Mat& fine,
     const auto* near_row = near.ptr<std::int16_t>(y);
     const auto* reverse_row = reverse.ptr<std::int16_t>(y / 2);
     for (int x = 0; x < fine.cols; ++x) {
-      if (!is_confirmed(row[x], x, reverse_row, tolerance)) {
+      if (row[x] >= least_near || !is_confirmed(row[x], x, reverse_row, tolerance)) {
         const bool is_near =
             near_row[x] >= least_near && is_confirmed(near_row[x], x, reverse_row, tolerance);
         row[x] = is_near ? near_row[x] : kInvalid;
