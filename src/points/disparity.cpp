@@ -92,7 +92,10 @@ HalfSize match_half_size(const cv::Mat& left, const cv::Mat& right, const Stereo
   // What is farther is matched at full size; a step less, since at its ends a search is in doubt.
   const cv::Range near(std::max(range.end / 2 / kRangeStep - 1, 0) * kRangeStep, range.end);
   // Mirrored, the right image takes the left one's place and matches lie to the left again.
-  return {match(small_left, small_right, near, kHalfBlockSize, config.uniqueness_percent),
+  cv::Mat near_left =
+      match(small_left, small_right, near, kHalfBlockSize, config.uniqueness_percent);
+  near_left.setTo(kInvalid, near_left * 2 >= config.num_disparities * kStepsPerPixel);
+  return {near_left,
           mirror(match(mirror(small_right), mirror(small_left), range, kHalfBlockSize, 0))};
 }
 

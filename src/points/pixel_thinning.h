@@ -23,12 +23,10 @@ cv::Mat gradient_magnitude(const cv::Mat& gray);
 cv::Mat find_depth_edges(const cv::Mat& disparity, double jump_px, int margin_px);
 
 /// At most one usable pixel per cell: the one of strongest gradient. Where no usable pixel reaches
-/// `min_gradient`, cells are `flat_cell_px` large. Cells that a border of classes crosses
-/// (`labels`: CV_16UC1, may be empty) give the best pixel of another class, too, and whatever their
-/// gradient: both sides keep a point. Row by row, so that equal input gives equal order.
+/// `min_gradient`, cells are `flat_cell_px` large. Row by row, so that equal input gives equal
+/// order.
 std::vector<cv::Point> thin_pixels(const cv::Mat& usable,
                                    const cv::Mat& gradient,
-                                   const ThinningConfig& config,
-                                   const cv::Mat& labels = {});
+                                   const ThinningConfig& config);
 
 }  // namespace facet_mapping::detail

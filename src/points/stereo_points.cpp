@@ -120,8 +120,7 @@ std::vector<LabeledPoint> stereo_points(const cv::Mat& left,
   const std::vector<cv::Point> pixels =
       detail::thin_pixels(find_usable(disparity, labels, triangulation, config),
                           detail::gradient_magnitude(left),
-                          {config.cell_px, config.flat_cell_px, config.min_gradient},
-                          labels);
+                          {config.cell_px, config.flat_cell_px, config.min_gradient});
   std::vector<LabeledPoint> points = triangulate(
       pixels, refine_all(left, right, disparity, pixels), labels, camera, triangulation);
   if (report != nullptr) {

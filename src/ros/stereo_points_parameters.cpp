@@ -49,11 +49,8 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
              kPositive);
   table->add("stereo/min_depth_m", &c->min_depth_m, "m", "nearer points are dropped", kNotNegative);
   table->add("stereo/max_depth_m", &c->max_depth_m, "m", "farther points are dropped", kPositive);
-  table->add("stereo/cell_px",
-             &c->cell_px,
-             "px",
-             "at most one point of a class per cell of this size",
-             {1, 1000});
+  table->add(
+      "stereo/cell_px", &c->cell_px, "px", "at most one point per cell of this size", {1, 1000});
   table->add("stereo/min_gradient",
              &c->min_gradient,
              "1/px",

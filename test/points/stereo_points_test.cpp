@@ -123,24 +123,6 @@ TEST(StereoPoints, AreLessSureWhereTheImageIsNoisy) {
   EXPECT_GT(mean_sigma(points, true, camera), 1.1 * mean_sigma(points, false, camera));
 }
 
-TEST(StereoPoints, LieOnBothSidesOfAClassBorder) {
-  const auto [left, right] = make_pair(320, 160, 1, {20.0, 0.0, 0.0});
-  const PinholeCamera camera = make_camera(left);
-  cv::Mat labels(left.size(), CV_16UC1, cv::Scalar(1));
-  labels.colRange(152, 320).setTo(2);  // column 150 to 154 is a cell
-  StereoConfig config = small_config();
-  config.min_gradient = 1000.0;  // no cell has texture enough by itself
-  std::set<int> rows[2];
-  for (const LabeledPoint& point : stereo_points(left, right, labels, camera, kBaseline, config)) {
-    const cv::Point pixel = pixel_of(point, camera);
-    if (pixel.x / config.cell_px == 30) {
-      EXPECT_TRUE(rows[point.label - 1].insert(pixel.y / config.cell_px).second);
-    }
-  }
-  EXPECT_GT(rows[0].size(), 25U);
-  EXPECT_GT(rows[1].size(), 25U);
-}
-
 TEST(StereoPoints, HaveNoClassWithoutLabels) {
   const auto [left, right] = make_pair(200, 100, 1, {20.0, 0.0, 0.0});
   for (const LabeledPoint& point :

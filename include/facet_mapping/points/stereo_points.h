@@ -25,7 +25,7 @@ struct StereoConfig {
   double max_relative_sigma = 0.05;  ///< points with sigma / depth above this are dropped
   double min_depth_m = 1.0;          ///< nearer points are dropped
   double max_depth_m = 60.0;         ///< farther points are dropped
-  int cell_px = 5;  ///< at most one point per cell of this size (a second at class borders) ...
+  int cell_px = 5;                   ///< at most one point per cell of this size ...
   double min_gradient =
       4.0;  ///< ... the pixel of strongest gradient, if above this (8-bit units per pixel)
   int flat_cell_px = 12;               ///< cell size where no pixel reaches min_gradient
