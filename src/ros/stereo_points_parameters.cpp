@@ -90,13 +90,7 @@ ParameterTable parameter_table(StereoPointsNodeConfig* config) {
             "pairs that may wait for the matcher; further ones are dropped and counted",
             {1, 100000});
   add_stereo(&table, &config->stereo);
-  table.add("sky/cell_px",
-            &config->sky.cell_px,
-            "px",
-            "one carving ray per square of this size that is sky all over; 0: none",
-            {0, 1000});
-  table.add(
-      "sky/range_m", &config->sky.range_m, "m", "where the rays toward the sky end", kPositive);
+  add_sky(&table, &config->sky);
   return table;
 }
 

@@ -79,7 +79,8 @@ TEST(PointQuality, ComparesWithThePixelThatThePointFallsOnAlone) {
 
 TEST(PointQuality, LooksFromWhereTheCameraIsNotFromTheSensor) {
   PointTruth truth = wall(8.0);
-  truth.view.world_from_cam.translation() = Eigen::Vector3d(0.0, 0.0, 2.0);  // two metres ahead of the sensor
+  truth.view.world_from_cam.translation() =
+      Eigen::Vector3d(0.0, 0.0, 2.0);  // two metres ahead of the sensor
   const PointScores scores = scores_of(frame_of({point_at(31.5, 23.5, 10.0)}), truth);
   ASSERT_EQ(scores.compared, 1U);
   EXPECT_NEAR(scores.median_relative, 0.0, 1e-6);
