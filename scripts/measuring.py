@@ -1,4 +1,4 @@
-"""What scripts/benchmark and scripts/paper_tables share: running programs and scoring meshes."""
+"""What scripts/benchmark, scripts/paper_tables and scripts/point_tables share: running programs and scoring meshes."""
 import json
 import os
 import statistics

@@ -2,48 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
+
+#include "evaluation/text_table.h"
 
 #include "facet_mapping/evaluation/report.h"
 
 namespace facet_mapping {
 namespace {
 
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), pattern, value);
-  return text;
-}
-
-// 1234567 -> 1,234,567
-std::string grouped(std::size_t number) {
-  std::string text = std::to_string(number);
-  for (auto k = static_cast<std::ptrdiff_t>(text.size()) - 3; k > 0; k -= 3) {
-    text.insert(static_cast<std::size_t>(k), ",");
-  }
-  return text;
-}
-
-std::size_t columns_of(const std::string& text) {
-  // UTF-8 continuation bytes take no room.
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
-}
-
-std::string padded_left(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, columns_of(text)), ' ') + text;
-}
-
-std::string padded_right(const std::string& text, std::size_t width) {
-  return text + std::string(width - std::min(width, columns_of(text)), ' ');
-}
-
 using Row = std::vector<std::string>;
 using Value = std::function<double(const MeshEvaluation&)>;
 
-// Rows of cells, the first one left-aligned; a row of one cell is a heading.
 class TableBuilder {
  public:
   TableBuilder(const std::vector<NamedEvaluation>& meshes, double metre)
@@ -62,7 +32,10 @@ class TableBuilder {
   }
   void count(const std::string& name, const Value& value) {
     add(
-        name, value, [](double number) { return grouped(static_cast<std::size_t>(number)); }, "");
+        name,
+        value,
+        [](double number) { return grouped_digits(static_cast<std::size_t>(number)); },
+        "");
   }
   void length(const std::string& name, const Value& value) {
     add_length(name, value, change(value, "%+.1f %%", true));
@@ -73,28 +46,11 @@ class TableBuilder {
     add(
         name,
         value,
-        [](double number) { return format("%.1f %%", 100.0 * number); },
+        [](double number) { return format_number("%.1f %%", 100.0 * number); },
         change(value, "%+.1f pt", false));
   }
 
-  std::string text() const {
-    std::vector<std::size_t> widths;
-    for (const Row& row : rows_) {
-      widths.resize(std::max(widths.size(), row.size()), 0);
-      for (std::size_t k = 0; row.size() > 1 && k < row.size(); ++k) {
-        widths[k] = std::max(widths[k], columns_of(row[k]));
-      }
-    }
-    std::string text;
-    for (const Row& row : rows_) {
-      std::string line = padded_right(row[0], widths[0]);
-      for (std::size_t k = 1; k < row.size(); ++k) {
-        line += "  " + padded_left(row[k], widths[k]);
-      }
-      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-  }
+  std::string text() const { return aligned_rows(rows_); }
 
  private:
   // From the first mesh to the last, in per cent or in percentage points.
@@ -103,13 +59,16 @@ class TableBuilder {
     const double last = value(meshes_.back().evaluation);
     const double scale = relative ? first : 1.0;
     const double difference = 100.0 * (last - first) / scale;
-    return std::isfinite(difference) ? format(pattern, difference) : "";
+    return std::isfinite(difference) ? format_number(pattern, difference) : "";
   }
 
   void add_length(const std::string& name, const Value& value, const std::string& last_column) {
     const char* pattern = metre_ == 1.0 ? "%.3f m" : "%.2f mm";
     add(
-        name, value, [&](double number) { return format(pattern, number * metre_); }, last_column);
+        name,
+        value,
+        [&](double number) { return format_number(pattern, number * metre_); },
+        last_column);
   }
 
   void add(const std::string& name,
@@ -138,24 +97,26 @@ double as_double(std::size_t number) {
 
 void add_bounds(const DepthErrorOptions& options, double metre, TableBuilder& table) {
   for (std::size_t k = 0; k < options.absolute_bounds_m.size(); ++k) {
-    const std::string bound = metre == 1.0 ? format("%g m", options.absolute_bounds_m[k])
-                                           : format("%g mm", 1000.0 * options.absolute_bounds_m[k]);
+    const std::string bound = metre == 1.0
+                                  ? format_number("%g m", options.absolute_bounds_m[k])
+                                  : format_number("%g mm", 1000.0 * options.absolute_bounds_m[k]);
     table.share("  within " + bound,
                 [k](const MeshEvaluation& e) { return e.depth.within_absolute[k]; });
   }
   for (std::size_t k = 0; k < options.relative_bounds.size(); ++k) {
-    table.share("  within " + format("%g %%", 100.0 * options.relative_bounds[k]) + " of depth",
-                [k](const MeshEvaluation& e) { return e.depth.within_relative[k]; });
+    table.share(
+        "  within " + format_number("%g %%", 100.0 * options.relative_bounds[k]) + " of depth",
+        [k](const MeshEvaluation& e) { return e.depth.within_relative[k]; });
   }
 }
 
 void add_depth(const DepthErrorOptions& options, double metre, TableBuilder& table) {
   table.heading("depth error (ground-truth pixels that the mesh covers" +
                 (std::isfinite(options.max_error_m)
-                     ? ", errors below " + format("%g m", options.max_error_m)
+                     ? ", errors below " + format_number("%g m", options.max_error_m)
                      : std::string()) +
                 (std::isfinite(options.max_depth_m)
-                     ? ", ground truth nearer than " + format("%g m", options.max_depth_m)
+                     ? ", ground truth nearer than " + format_number("%g m", options.max_depth_m)
                      : std::string()) +
                 ")");
   table.count("  ground-truth pixels",

@@ -11,15 +11,17 @@ namespace facet_mapping {
 namespace {
 
 constexpr char kTracks[] = "tracks";
+constexpr char kSweep[] = "sweep";
 
-TrackConfig without_sky(TrackConfig config, const LabelSet& labels) {
+template <typename Config>
+Config without_sky(Config config, const LabelSet& labels) {
   config.excluded_labels = labels.sky_ids();
   return config;
 }
 
-void append(std::vector<PointFrame> frames, std::vector<SensorPoints>* points) {
+void append(std::vector<PointFrame> frames, const char* sensor, std::vector<SensorPoints>* points) {
   for (PointFrame& frame : frames) {
-    points->push_back({kTracks, std::move(frame)});
+    points->push_back({sensor, std::move(frame)});
   }
 }
 
@@ -40,19 +42,21 @@ DatasetPoints::DatasetPoints(const Dataset& dataset,
     : dataset_(dataset),
       labels_(labels),
       config_(config),
-      tracker_(without_sky(config.track_config, labels)) {
-  if (!config.stereo && !config.lidar && !config.tracks) {
-    throw std::invalid_argument("no source of points: choose stereo, lidar, tracks or several");
+      tracker_(without_sky(config.track_config, labels)),
+      sweeper_(without_sky(config.sweep_config, labels)) {
+  if (!config.stereo && !config.lidar && !config.tracks && !config.sweep) {
+    throw std::invalid_argument(
+        "no source of points: choose stereo, lidar, tracks, sweep or several");
   }
   if (config.stereo && !dataset.has_right) {
     throw std::invalid_argument(
         "the dataset has no right images, so there are no stereo points: use its LiDAR scans, "
-        "feature tracks or the points of a mesh");
+        "feature tracks, plane sweeping or the points of a mesh");
   }
   if (config.lidar && !dataset.has_scans) {
     throw std::invalid_argument(
-        "the dataset has no LiDAR scans: use stereo points, feature tracks or the points of a "
-        "mesh");
+        "the dataset has no LiDAR scans: use stereo points, feature tracks, plane sweeping or "
+        "the points of a mesh");
   }
   config_.stereo_config.excluded_labels = labels.sky_ids();
 }
@@ -70,26 +74,35 @@ std::vector<SensorPoints> DatasetPoints::read(std::size_t index) const {
   return points;
 }
 
-std::vector<SensorPoints> DatasetPoints::follow(std::size_t index, TrackReport* report) {
+std::vector<SensorPoints> DatasetPoints::follow(std::size_t index,
+                                                TrackReport* tracks,
+                                                SweepReport* sweep) {
   const DatasetFrame& frame = dataset_.frames.at(index);
   std::vector<SensorPoints> points;
-  if (!config_.tracks) {
+  if (!config_.tracks && !config_.sweep) {
     return points;
   }
   const cv::Mat labels = frame_label_image(frame, labels_);
-  append(tracker_.add(read_gray(frame.left_image), frame.view, labels, frame.stamp, report),
-         &points);
+  const cv::Mat gray = read_gray(frame.left_image);
+  if (config_.tracks) {
+    append(tracker_.add(gray, frame.view, labels, frame.stamp, tracks), kTracks, &points);
+  }
+  if (config_.sweep) {
+    append(sweeper_.add(gray, frame.view, labels, frame.stamp, sweep), kSweep, &points);
+  }
   std::vector<LabeledPoint> sky =
       sky_points(labels, frame.view.camera, labels_.sky_ids(), config_.sky_config);
   if (!sky.empty()) {
-    points.push_back({kTracks, {frame.stamp, frame.view.world_from_cam, std::move(sky)}});
+    points.push_back({config_.tracks ? kTracks : kSweep,
+                      {frame.stamp, frame.view.world_from_cam, std::move(sky)}});
   }
   return points;
 }
 
 std::vector<SensorPoints> DatasetPoints::finish() {
   std::vector<SensorPoints> points;
-  append(tracker_.finish(), &points);
+  append(tracker_.finish(), kTracks, &points);
+  append(sweeper_.finish(), kSweep, &points);
   return points;
 }
 

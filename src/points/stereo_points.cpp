@@ -21,20 +21,23 @@ struct Triangulation {
   double disparity_sigma = 0.0;       // pixels
   double min_depth = 0.0;             // metres
   double max_depth = 0.0;             // metres
+  double max_relative_sigma = 0.0;
 
   Triangulation(const PinholeCamera& camera, double baseline_m, const StereoConfig& config)
       : focal_times_baseline(camera.fx * baseline_m),
         disparity_sigma(config.disparity_sigma_px),
         min_depth(config.min_depth_m),
-        // sigma(z) / z = z * sigma_d / (fx * b), so the largest relative sigma is a largest depth.
-        max_depth(std::min(config.max_depth_m,
-                           config.max_relative_sigma * focal_times_baseline / disparity_sigma)) {}
+        max_depth(config.max_depth_m),
+        max_relative_sigma(config.max_relative_sigma) {}
 
   double depth(double disparity) const { return focal_times_baseline / disparity; }
-  double sigma(double depth) const {
-    return depth * depth * disparity_sigma / focal_times_baseline;
+  double sigma(double depth, double doubt) const {
+    return depth * depth * disparity_sigma * doubt / focal_times_baseline;
   }
-  bool in_range(double depth) const { return depth >= min_depth && depth <= max_depth; }
+  bool in_range(double depth, double doubt) const {
+    return depth >= min_depth && depth <= max_depth &&
+           sigma(depth, doubt) <= max_relative_sigma * depth;
+  }
 };
 
 /// Non-zero where a pixel may become a point.
@@ -50,7 +53,8 @@ cv::Mat find_usable(const cv::Mat& disparity,
     auto* usable_row = usable.ptr<std::uint8_t>(y);
     for (int x = 0; x < disparity.cols; ++x) {
       const bool in_range =
-          disparity_row[x] > 0.0F && triangulation.in_range(triangulation.depth(disparity_row[x]));
+          disparity_row[x] > 0.0F &&
+          triangulation.in_range(triangulation.depth(disparity_row[x]), detail::kLeastDoubt);
       if (!in_range ||
           (label_row != nullptr && detail::is_excluded(label_row[x], config.excluded_labels))) {
         usable_row[x] = 0;
@@ -60,11 +64,11 @@ cv::Mat find_usable(const cv::Mat& disparity,
   return usable;
 }
 
-std::vector<float> refine_all(const cv::Mat& left,
-                              const cv::Mat& right,
-                              const cv::Mat& disparity,
-                              const std::vector<cv::Point>& pixels) {
-  std::vector<float> refined(pixels.size());
+std::vector<detail::RefinedDisparity> refine_all(const cv::Mat& left,
+                                                 const cv::Mat& right,
+                                                 const cv::Mat& disparity,
+                                                 const std::vector<cv::Point>& pixels) {
+  std::vector<detail::RefinedDisparity> refined(pixels.size());
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
     refined[i] = detail::refine_disparity(left, right, disparity, pixels[i]);
   });
@@ -72,21 +76,22 @@ std::vector<float> refine_all(const cv::Mat& left,
 }
 
 std::vector<LabeledPoint> triangulate(const std::vector<cv::Point>& pixels,
-                                      const std::vector<float>& disparities,
+                                      const std::vector<detail::RefinedDisparity>& disparities,
                                       const cv::Mat& labels,
                                       const PinholeCamera& camera,
                                       const Triangulation& triangulation) {
   std::vector<LabeledPoint> points;
   points.reserve(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const double depth = triangulation.depth(disparities[i]);
-    if (!triangulation.in_range(depth)) {
+    const double depth = triangulation.depth(disparities[i].disparity);
+    const double doubt = disparities[i].doubt;
+    if (!triangulation.in_range(depth, doubt)) {
       continue;  // NaN too: the refinement found no likeness
     }
     LabeledPoint point;
     point.position = (depth * camera.ray({pixels[i].x, pixels[i].y})).cast<float>();
     point.label = labels.empty() ? kUnlabelled : labels.at<Label>(pixels[i]);
-    point.sigma = static_cast<float>(triangulation.sigma(depth));
+    point.sigma = static_cast<float>(triangulation.sigma(depth, doubt));
     points.push_back(point);
   }
   return points;

@@ -8,19 +8,29 @@
 #include <cstdint>
 #include <limits>
 
+#include <Eigen/Core>
+
 namespace facet_mapping::detail {
 namespace {
 
 constexpr int kRadius = 5;  // of the compared window, pixels
 constexpr int kSide = 2 * kRadius + 1;
+constexpr int kMostPixels = kSide * kSide;
+constexpr int kLeastPixels = kMostPixels / 3;
 constexpr int kSlantRadius = 8;       // of the window that the slant is measured in, pixels
 constexpr int kSlantStep = 2;         // every second pixel of it tells enough
 constexpr float kSameSurface = 1.5F;  // largest distance from the slanted plane, pixels
 constexpr int kMostIterations = 3;
-constexpr float kSmallChange = 0.02F;   // pixels; a smaller step ends the iteration
+constexpr float kSmallChange = 0.05F;   // pixels; a smaller step ends the iteration
 constexpr float kLargestChange = 1.0F;  // pixels; farther away is another minimum
 constexpr float kLeastTexture = 4.0F;   // mean variance of the slope, squared grey values per pixel
 constexpr float kLeastCorrelation = 0.5F;
+constexpr float kDoubtPerPixel = 5.0F;   // doubt per pixel of the Cramer-Rao bound
+constexpr float kUnrefinedDoubt = 1.3F;  // where the texture does not suffice
+constexpr float kLostDoubt = 1.8F;       // where the iteration leads away
+
+/// One value per pixel of a window.
+using Values = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, kMostPixels, 1>;
 
 /// Change of the disparity per pixel.
 struct Slant {
@@ -55,160 +65,190 @@ class SlantFit {
   float yd_ = 0.0F;
 };
 
-/// Calls `visit(x, y, dx, dy)` for the pixels of a window that lie in the image.
-template <typename Visit>
-void for_window(
-    const cv::Size& size, const cv::Point& at, int radius, int step, const Visit& visit) {
-  for (int dy = -radius; dy <= radius; dy += step) {
-    for (int dx = -radius; dx <= radius; dx += step) {
-      const int x = at.x + dx;
-      const int y = at.y + dy;
-      if (x >= 0 && y >= 0 && x < size.width && y < size.height) {
-        visit(x, y, static_cast<float>(dx), static_cast<float>(dy));
-      }
-    }
-  }
+/// The offsets from `at` up to `radius` in steps that stay in [0, size).
+cv::Range offsets_inside(int at, int radius, int step, int size) {
+  const int before = std::min(radius, at / step * step);
+  const int after = std::min(radius, (size - 1 - at) / step * step);
+  return {-before, after + 1};
 }
 
 /// Slant of the disparities around `at` that may belong to the same surface.
 Slant measure_slant(const cv::Mat& disparity, const cv::Point& at) {
   const auto center = disparity.at<float>(at);
+  const cv::Range rows = offsets_inside(at.y, kSlantRadius, kSlantStep, disparity.rows);
+  const cv::Range columns = offsets_inside(at.x, kSlantRadius, kSlantStep, disparity.cols);
   SlantFit fit;
-  for_window(disparity.size(), at, kSlantRadius, kSlantStep, [&](int x, int y, float dx, float dy) {
-    const float difference = disparity.at<float>(y, x) - center;
-    if (std::abs(difference) < 2.0F * kSameSurface) {
-      fit.add(dx, dy, difference);
+  for (int dy = rows.start; dy < rows.end; dy += kSlantStep) {
+    const float* row = disparity.ptr<float>(at.y + dy) + at.x;
+    for (int dx = columns.start; dx < columns.end; dx += kSlantStep) {
+      const float difference = row[dx] - center;
+      if (std::abs(difference) < 2.0F * kSameSurface) {
+        fit.add(static_cast<float>(dx), static_cast<float>(dy), difference);
+      }
     }
-  });
+  }
   return fit.solve();
 }
 
-struct Sample {
-  float value;
-  float slope;  // per pixel
-};
+/// Coefficients of a Catmull-Rom spline at every pixel of the window.
+struct Spline {
+  Values t;
+  Values p0;
+  Values p1;
+  Values p2;
+  Values p3;
 
-/// Catmull-Rom spline along a row; the caller makes sure that x lies in [1, width - 2).
-Sample sample_row(const std::uint8_t* row, float x) {
-  const int left = static_cast<int>(x);
-  const float t = x - static_cast<float>(left);
-  const float p0 = row[left - 1];
-  const float p1 = row[left];
-  const float p2 = row[left + 1];
-  const float p3 = row[left + 2];
-  const float c1 = 0.5F * (p2 - p0);
-  const float c2 = p0 - 2.5F * p1 + 2.0F * p2 - 0.5F * p3;
-  const float c3 = 1.5F * (p1 - p2) + 0.5F * (p3 - p0);
-  return {p1 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0F * c2 + 3.0F * t * c3)};
-}
+  explicit Spline(Eigen::Index n) : t(n), p0(n), p1(n), p2(n), p3(n) {}
 
-/// Sums over the window that the step and the correlation come from. Grey values count from that of
-/// the centre, so that floats are precise enough.
-struct Sums {
-  float n = 0.0F;
-  float l = 0.0F;
-  float r = 0.0F;
-  float s = 0.0F;
-  float ll = 0.0F;
-  float rr = 0.0F;
-  float lr = 0.0F;
-  float ss = 0.0F;
-  float ls = 0.0F;
-  float rs = 0.0F;
-
-  void add(float left, const Sample& right) {
-    n += 1.0F;
-    l += left;
-    r += right.value;
-    s += right.slope;
-    ll += left * left;
-    rr += right.value * right.value;
-    lr += left * right.value;
-    ss += right.slope * right.slope;
-    ls += left * right.slope;
-    rs += right.value * right.slope;
+  Values value() const {
+    const auto c1 = p2 - p0;
+    const auto c2 = 2.0F * p0 - 5.0F * p1 + 4.0F * p2 - p3;
+    const auto c3 = 3.0F * (p1 - p2) + p3 - p0;
+    return p1 + 0.5F * t * (c1 + t * (c2 + t * c3));
   }
 
-  bool enough() const { return n >= kSide * kSide / 3; }
-  float texture() const { return (ss - s * s / n) / n; }
-  /// Gauss-Newton step of the disparity, the offset of brightness eliminated.
-  float step() const { return ((rs - r * s / n) - (ls - l * s / n)) / (ss - s * s / n); }
-  float correlation() const {
-    const float variances = (ll - l * l / n) * (rr - r * r / n);
-    return variances > 0.0F ? (lr - l * r / n) / std::sqrt(variances) : 0.0F;
+  Values slope() const {
+    const auto c1 = p2 - p0;
+    const auto c2 = 2.0F * p0 - 5.0F * p1 + 4.0F * p2 - p3;
+    const auto c3 = 3.0F * (p1 - p2) + p3 - p0;
+    return 0.5F * (c1 + t * (2.0F * c2 + 3.0F * t * c3));
   }
 };
 
 /// The pixels around one pixel of the left image that seem to lie on its surface.
 class Window {
  public:
-  Window(const cv::Mat& left, const cv::Mat& right, const cv::Mat& disparity, const cv::Point& at)
-      : last_x_(static_cast<float>(right.cols - 2)) {
+  Window(const cv::Mat& left, const cv::Mat& right, const cv::Mat& disparity, const cv::Point& at) {
     const auto center = disparity.at<float>(at);
-    center_value_ = left.at<std::uint8_t>(at);
     const Slant slant = measure_slant(disparity, at);
-    for_window(left.size(), at, kRadius, 1, [&](int x, int y, float dx, float dy) {
-      const float shift = slant.along_x * dx + slant.along_y * dy;
-      if (std::abs(disparity.at<float>(y, x) - center - shift) < kSameSurface) {
-        pixels_[count_++] = {right.ptr<std::uint8_t>(y),
-                             static_cast<float>(x) - shift,
-                             left.at<std::uint8_t>(y, x) - center_value_};
-      }
-    });
-  }
-
-  Sums sums(float disparity) const {
-    Sums sums;
-    for (int i = 0; i < count_; ++i) {
-      const float x = pixels_[i].right_x - disparity;
-      if (x >= 1.0F && x < last_x_) {
-        const Sample sample = sample_row(pixels_[i].right_row, x);
-        sums.add(pixels_[i].left_value, {sample.value - center_value_, sample.slope});
+    left_values_.resize(kMostPixels);
+    left_slopes_.resize(kMostPixels);
+    // So far inside that the spline has its four pixels wherever the iteration goes.
+    const float least_x = center + 1.0F + kLargestChange;
+    const float most_x = center + static_cast<float>(right.cols - 3) - kLargestChange;
+    const cv::Range rows = offsets_inside(at.y, kRadius, 1, left.rows);
+    for (int y = at.y + rows.start; y < at.y + rows.end; ++y) {
+      const float row_shift = slant.along_y * static_cast<float>(y - at.y);
+      for (int x = std::max(at.x - kRadius, 1); x <= std::min(at.x + kRadius, left.cols - 2); ++x) {
+        const float shift = row_shift + slant.along_x * static_cast<float>(x - at.x);
+        const float right_x = static_cast<float>(x) - shift;
+        if (std::abs(disparity.at<float>(y, x) - center - shift) < kSameSurface &&
+            right_x >= least_x && right_x <= most_x) {
+          add(left.ptr<std::uint8_t>(y) + x, right.ptr<std::uint8_t>(y), right_x);
+        }
       }
     }
-    return sums;
+    left_values_.conservativeResize(count_);
+    left_slopes_.conservativeResize(count_);
+    if (count_ > 0) {
+      left_values_ -= left_values_.mean();
+    }
+  }
+
+  int count() const { return count_; }
+  /// Less their mean.
+  const Values& left_values() const { return left_values_; }
+  const Values& left_slopes() const { return left_slopes_; }
+
+  /// The right image at the window's pixels, shifted.
+  Spline shifted(float disparity) const {
+    Spline spline(count_);
+    for (int i = 0; i < count_; ++i) {
+      const float x = right_x_[i] - disparity;
+      const int left = static_cast<int>(x);
+      const std::uint8_t* pixels = right_rows_[i] + left - 1;
+      spline.t[i] = x - static_cast<float>(left);
+      spline.p0[i] = pixels[0];
+      spline.p1[i] = pixels[1];
+      spline.p2[i] = pixels[2];
+      spline.p3[i] = pixels[3];
+    }
+    return spline;
   }
 
  private:
-  struct Pixel {
-    const std::uint8_t* right_row;
-    float right_x;  // at disparity 0, the slant applied
-    float left_value;
-  };
+  void add(const std::uint8_t* left, const std::uint8_t* right_row, float right_x) {
+    left_values_[count_] = left[0];
+    left_slopes_[count_] = 0.5F * static_cast<float>(left[1] - left[-1]);
+    right_rows_[count_] = right_row;
+    right_x_[count_] = right_x;
+    ++count_;
+  }
 
-  std::array<Pixel, kSide * kSide> pixels_;
+  std::array<const std::uint8_t*, kMostPixels> right_rows_;
+  std::array<float, kMostPixels> right_x_;  // at disparity 0, the slant applied
+  Values left_values_;
+  Values left_slopes_;
   int count_ = 0;
-  float last_x_;
-  float center_value_ = 0.0F;
 };
 
-}  // namespace
+/// Centred, so that a difference of brightness does not count.
+Values centered(Values values) {
+  values -= values.mean();
+  return values;
+}
 
-float refine_disparity(const cv::Mat& left,
-                       const cv::Mat& right,
-                       const cv::Mat& disparity,
-                       const cv::Point& pixel) {
-  const Window window(left, right, disparity, pixel);
-  const auto start = disparity.at<float>(pixel);
+float correlation(const Values& a, const Values& b) {
+  const float variances = a.square().sum() * b.square().sum();
+  return variances > 0.0F ? (a * b).sum() / std::sqrt(variances) : 0.0F;
+}
+
+/// Doubt of a match from its Cramer-Rao bound (pixels) and the part of the window that was used;
+/// fitted to LiDAR depth on KITTI streets.
+float doubt_of(float bound_px, int used_pixels) {
+  const float spread = kDoubtPerPixel * bound_px;
+  const float shared = static_cast<float>(kMostPixels) / static_cast<float>(used_pixels);
+  return std::sqrt(kLeastDoubt * kLeastDoubt + spread * spread) * shared * shared;
+}
+
+/// Gauss-Newton steps from `start`, where the right image's values are known.
+RefinedDisparity iterate(const Window& window,
+                         const Values& slopes,
+                         Values right_values,
+                         float start) {
+  const float squares = slopes.square().sum();
   float refined = start;
+  float residual = 0.0F;
   for (int i = 0; i < kMostIterations; ++i) {
-    const Sums sums = window.sums(refined);
-    if (!sums.enough() || sums.texture() < kLeastTexture) {
-      return start;
+    if (i > 0) {
+      right_values = centered(window.shifted(refined).value());
     }
-    if (i == 0 && sums.correlation() < kLeastCorrelation) {
-      return std::numeric_limits<float>::quiet_NaN();
-    }
-    const float step = sums.step();
+    const Values differences = right_values - window.left_values();
+    residual = differences.square().mean();
+    const float step = (slopes * differences).sum() / squares;
     refined += step;
     if (!(std::abs(refined - start) < kLargestChange)) {
-      return start;
+      return {start, kLostDoubt};
     }
     if (std::abs(step) < kSmallChange) {
       break;
     }
   }
-  return refined;
+  return {refined, doubt_of(std::sqrt(residual / squares), window.count())};
+}
+
+}  // namespace
+
+RefinedDisparity refine_disparity(const cv::Mat& left,
+                                  const cv::Mat& right,
+                                  const cv::Mat& disparity,
+                                  const cv::Point& pixel) {
+  const auto start = disparity.at<float>(pixel);
+  const Window window(left, right, disparity, pixel);
+  if (window.count() < kLeastPixels) {
+    return {start, kUnrefinedDoubt};
+  }
+  const Spline spline = window.shifted(start);
+  const Values right_values = centered(spline.value());
+  // The mean slope of both images, which converges in few steps.
+  const Values slopes = centered(0.5F * (window.left_slopes() + spline.slope()));
+  if (slopes.square().mean() < kLeastTexture) {
+    return {start, kUnrefinedDoubt};
+  }
+  if (correlation(window.left_values(), right_values) < kLeastCorrelation) {
+    return {std::numeric_limits<float>::quiet_NaN(), kUnrefinedDoubt};
+  }
+  return iterate(window, slopes, right_values, start);
 }
 
 }  // namespace facet_mapping::detail

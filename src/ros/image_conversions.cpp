@@ -9,6 +9,7 @@
 
 #include <cv_bridge/cv_bridge.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sensor_msgs/image_encodings.h>
 
 namespace facet_mapping {
@@ -59,6 +60,22 @@ std::string encoding_of(const cv::Mat& image, const std::string& topic) {
                     "the PNG is neither 8-bit nor 16-bit grey (class ids) nor 8-bit colour; "
                     "write one of these");
   }
+}
+
+/// The value that means certainty in a confidence image.
+double certainty(const sensor_msgs::Image& image, const std::string& topic) {
+  if (image.encoding == encodings::MONO8 || image.encoding == encodings::TYPE_8UC1) {
+    return 255.0;
+  }
+  if (image.encoding == encodings::MONO16 || image.encoding == encodings::TYPE_16UC1) {
+    return 65535.0;
+  }
+  if (image.encoding == encodings::TYPE_32FC1) {
+    return 1.0;
+  }
+  throw problem(topic,
+                "encoding '" + image.encoding +
+                    "' is no confidence; publish mono8 (255 is certain), mono16 or 32FC1 (0 to 1)");
 }
 
 }  // namespace
@@ -117,6 +134,22 @@ cv::Mat labels_from_message(const sensor_msgs::CompressedImage& image,
   } catch (const std::invalid_argument& e) {
     throw problem(topic, e.what());
   }
+}
+
+cv::Mat confidence_from_message(const sensor_msgs::Image& image, const std::string& topic) {
+  const double certain = certainty(image, topic);
+  cv::Mat confidence;
+  pixels(image, topic).convertTo(confidence, CV_32F, 1.0 / certain);
+  return confidence;
+}
+
+void hide_unsure_pixels(const cv::Mat& confidence, double min_confidence, cv::Mat* labels) {
+  cv::Mat fitting = confidence;
+  if (confidence.size() != labels->size()) {
+    cv::resize(confidence, fitting, labels->size(), 0.0, 0.0, cv::INTER_NEAREST);
+  }
+  const cv::Mat is_sure = fitting >= min_confidence;  // false for what is not a number
+  labels->setTo(kUnlabelled, ~is_sure);
 }
 
 }  // namespace facet_mapping

@@ -3,6 +3,7 @@
 #include "facet_mapping/ros/refiner_node.h"
 
 #include <string>
+#include <utility>
 
 #include "facet_mapping/ros/node_setup.h"
 #include "facet_mapping/ros/service_status.h"
@@ -41,10 +42,12 @@ RefinerNode::RefinerNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
       input_(nh,
              config_.segmentation,
              labels_,
-             &keyframes_,
              &transforms_,
              &diagnostics_,
-             {[this](const std_msgs::Header& header) { on_keyframe(header); },
+             {[this](const Eigen::Isometry3d& pose) { return wants(pose); },
+              [this](LabeledView view, const std_msgs::Header& header) {
+                on_image(std::move(view), header);
+              },
               [this](double jump_s) { on_time_jump(jump_s); }}),
       reset_server_(private_nh.advertiseService("reset", &RefinerNode::reset, this)),
       services_(private_nh,
@@ -70,7 +73,20 @@ void RefinerNode::stop() {
   map_mesh_.stop();
 }
 
-void RefinerNode::on_keyframe(const std_msgs::Header& header) {
+bool RefinerNode::wants(const Eigen::Isometry3d& map_from_camera) {
+  const bool wanted = keyframes_.wants(map_from_camera);
+  if (!wanted) {
+    diagnostics_.count("images too near the last keyframe");
+  }
+  return wanted;
+}
+
+void RefinerNode::on_image(LabeledView view, const std_msgs::Header& header) {
+  const std::size_t dropped = keyframes_.add(std::move(view));
+  diagnostics_.count("keyframes");
+  if (dropped > 0) {
+    diagnostics_.count("old keyframes dropped", dropped);
+  }
   {
     const std::lock_guard<std::mutex> lock(header_mutex_);
     newest_header_ = header;

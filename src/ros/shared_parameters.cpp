@@ -22,7 +22,7 @@ void add_segmentation(ParameterTable* table, SegmentationInput* config) {
       "compressed: PNG on `segmentation/compressed` (lossy formats are refused)");
   table->add("resize_segmentation",
              &config->resize,
-             "accept label images of another size, resampled to the nearest pixel");
+             "resample label images of another size, but the same shape, to the nearest pixel");
   table->add("segmentation_timeout_s",
              &config->timeout_s,
              "s",
@@ -30,6 +30,11 @@ void add_segmentation(ParameterTable* table, SegmentationInput* config) {
              kNotNegative);
   table->add(
       "cache_s", &config->cache_s, "s", "wall time that incomplete frames are kept", kPositive);
+  table->add("min_confidence",
+             &config->min_confidence,
+             "",
+             "above 0: pixels below this on `segmentation_confidence` are unlabelled",
+             kUnit);
   table->add_check([config]() -> std::string {
     return config->timeout_s <= config->cache_s
                ? ""
@@ -57,6 +62,33 @@ void add_pose(ParameterTable* table, PoseInput* config) {
   table->add_check([config]() -> std::string {
     return config->map_frame.empty() ? "'map_frame' is empty; give the fixed frame, e.g. map" : "";
   });
+}
+
+void add_sky(ParameterTable* table, SkyConfig* config) {
+  table->add("sky/cell_px",
+             &config->cell_px,
+             "px",
+             "one carving ray per square of this size that is sky all over; 0: none",
+             {0, 1000});
+  table->add("sky/range_m", &config->range_m, "m", "where the rays toward the sky end", kPositive);
+}
+
+void add_moving_camera(ParameterTable* table, MovingCameraConfig* config) {
+  add_segmentation(table, &config->segmentation);
+  add_pose(table, &config->pose);
+  table->add("queue_size",
+             &config->queue_size,
+             "images",
+             "images that may wait for the worker; further ones are dropped and counted",
+             {1, 100000});
+  table->add(
+      "flush_after_s",
+      &config->flush_after_s,
+      "s",
+      "after so long without motion (stamps) or images (wall time) points wait no longer for "
+      "further views",
+      kPositive);
+  add_sky(table, &config->sky);
 }
 
 void add_output(ParameterTable* table, MeshOutput* config) {

@@ -17,6 +17,8 @@ constexpr Limits kUnit{0.0, 1.0};
 void add_label_file(ParameterTable* table, std::string* value);
 void add_segmentation(ParameterTable* table, SegmentationInput* config);
 void add_pose(ParameterTable* table, PoseInput* config);
+void add_sky(ParameterTable* table, SkyConfig* config);
+void add_moving_camera(ParameterTable* table, MovingCameraConfig* config);
 void add_output(ParameterTable* table, MeshOutput* config);
 
 }  // namespace facet_mapping

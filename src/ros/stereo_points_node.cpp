@@ -7,6 +7,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include "facet_mapping/points/stereo_pair_check.h"
 #include "facet_mapping/points/stereo_points.h"
 #include "facet_mapping/ros/cloud_conversions.h"
 #include "facet_mapping/ros/image_conversions.h"
@@ -21,6 +22,8 @@ constexpr std::uint32_t kQueueSize = 20;  // of each topic
 constexpr double kInfoWaitS = 0.5;        // then the last camera_info serves
 constexpr std::size_t kMaxWaitingFrames = 200;
 constexpr double kPollPeriodS = 0.1;
+constexpr std::size_t kFirstChecks = 3;   // the first pairs are all checked ...
+constexpr std::size_t kCheckPeriod = 10;  // ... then every so many; a check costs some 20 ms
 
 std::vector<StampSync::Part> parts_of(const SegmentationInput& config) {
   std::vector<StampSync::Part> parts{{"left/image_rect"},
@@ -31,6 +34,24 @@ std::vector<StampSync::Part> parts_of(const SegmentationInput& config) {
     parts.push_back({"segmentation", false, config.timeout_s});
   }
   return parts;
+}
+
+std::string name_of(StereoPairProblem problem) {
+  switch (problem) {
+    case StereoPairProblem::kNone:
+      return "";
+    case StereoPairProblem::kBlank:
+      return "blank image";
+    case StereoPairProblem::kSwapped:
+      return "left and right swapped";
+    case StereoPairProblem::kRowsDiffer:
+      return "unrectified pair";
+    case StereoPairProblem::kNoMatch:
+      return "images without common corners";
+    case StereoPairProblem::kExposure:
+      return "exposures differ";
+  }
+  return "";
 }
 
 }  // namespace
@@ -187,8 +208,27 @@ void StereoPointsNode::accept(const StampedParts& parts) {
   }
 }
 
+void StereoPointsNode::check(const Pair& pair) {
+  const std::size_t index = matched_pairs_++;
+  if (index >= kFirstChecks && index % kCheckPeriod != 0) {
+    return;
+  }
+  StereoPairCheckConfig config;
+  config.search_px = config_.stereo.num_disparities;
+  const StereoPairReport report = check_stereo_pair(pair.left, pair.right, config);
+  if (report.problem != StereoPairProblem::kNone) {
+    diagnostics_.complain(
+        name_of(report.problem),
+        "'" + topics_[kLeft] + "' and '" + topics_[kRight] + "': " + report.sentence);
+  }
+  if (report.matched > 0) {
+    diagnostics_.set("rows between the images, px", report.row_error_px);
+  }
+}
+
 void StereoPointsNode::match(const Pair& pair) {
   const ros::WallTime start = ros::WallTime::now();
+  check(pair);
   const cv::Mat labels = segmentation_.read(pair.segmentation, pair.left.size());
   std::vector<LabeledPoint> points =
       stereo_points(pair.left, pair.right, labels, pair.camera, pair.baseline_m, config_.stereo);

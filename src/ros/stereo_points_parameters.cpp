@@ -40,7 +40,7 @@ void add_stereo(ParameterTable* table, StereoConfig* c) {
   table->add("stereo/disparity_sigma_px",
              &c->disparity_sigma_px,
              "px",
-             "matching noise, from which range limit and sigma follow",
+             "noise of a typical match; sigma is this times the doubt of each match",
              kPositive);
   table->add("stereo/max_relative_sigma",
              &c->max_relative_sigma,

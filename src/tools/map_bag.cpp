@@ -5,11 +5,12 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "carving_options.h"
+#include "point_sources.h"
 #include "tool_main.h"
 
 #include "facet_mapping/io/atomic_file.h"
@@ -25,12 +26,10 @@ namespace {
 
 using namespace facet_mapping;
 
-enum class Source { kStereo, kLidar, kBoth, kTracks, kMesh };
-
 struct Options {
   std::string input;
   std::string output;
-  Source source = Source::kStereo;
+  std::vector<std::string> sources{"stereo"};
   std::string points_mesh;
   std::string labels;
   std::size_t first = 0;
@@ -44,17 +43,9 @@ struct Options {
 };
 
 void add_input_options(CLI::App& app, Options& options) {
-  const std::map<std::string, Source> sources{{"stereo", Source::kStereo},
-                                              {"lidar", Source::kLidar},
-                                              {"both", Source::kBoth},
-                                              {"tracks", Source::kTracks}};
   app.add_option("DATASET", options.input, "Dataset folder (layouts below)")->required();
   app.add_option("OUTPUT.ply", options.output, "Mesh to write (replaced if it exists)")->required();
-  auto* source = app.add_option("--points",
-                                options.source,
-                                "Where points come from; tracks: features of the left images alone")
-                     ->transform(CLI::CheckedTransformer(sources))
-                     ->default_str("stereo");
+  auto* source = add_points_option(app, options.sources)->capture_default_str();
   app.add_option(
          "--points-mesh",
          options.points_mesh,
@@ -82,9 +73,24 @@ void add_point_options(CLI::App& app, Options& options) {
                  options.points.cloud_config.voxel_m,
                  "LiDAR: at most one point of a scan per cube of this size, metres; 0: all")
       ->capture_default_str();
+  app.add_option("--lidar-sigma",
+                 options.points.cloud_config.sigma_m,
+                 "LiDAR: standard deviation of the points along their rays, metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--cell",
                  options.points.stereo_config.cell_px,
                  "Stereo: at most one point per cell of this size, pixels")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--nearest",
+                 options.points.sweep_config.min_depth_m,
+                 "Sweep: nearest depth, in the dataset's unit")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--farthest",
+                 options.points.sweep_config.max_depth_m,
+                 "Sweep: farthest depth, in the dataset's unit")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--point-sigma",
@@ -116,7 +122,7 @@ struct Totals {
   std::size_t unknown_label = 0;
   std::size_t dynamic_dropped = 0;
   std::size_t still = 0;     // images without parallax
-  std::size_t restarts = 0;  // of the feature tracks
+  std::size_t restarts = 0;  // of the feature tracks or the plane sweep
 
   void add(const FrameReport& report) {
     ++clouds;
@@ -142,10 +148,7 @@ Totals for_each_frame(const Options& options, const Dataset& dataset, const AddF
 }
 
 Totals add_sensor_points(const Options& options, const Dataset& dataset, LabeledMap* map) {
-  DatasetPointsConfig config = options.points;
-  config.stereo = options.source == Source::kStereo || options.source == Source::kBoth;
-  config.lidar = options.source == Source::kLidar || options.source == Source::kBoth;
-  config.tracks = options.source == Source::kTracks;
+  const DatasetPointsConfig config = with_sources(options.points, options.sources);
   DatasetPoints points(dataset, map->labels(), config);
   const auto add_all = [map](const std::vector<SensorPoints>& all, Totals* totals) {
     for (const SensorPoints& sensor : all) {
@@ -154,10 +157,11 @@ Totals add_sensor_points(const Options& options, const Dataset& dataset, Labeled
   };
   Totals sums = for_each_frame(options, dataset, [&](std::size_t k, Totals* totals) {
     add_all(points.read(k), totals);
-    TrackReport report;
-    add_all(points.follow(k, &report), totals);
-    totals->still += report.still ? 1 : 0;
-    totals->restarts += report.restarted ? 1 : 0;
+    TrackReport tracks;
+    SweepReport sweep;
+    add_all(points.follow(k, &tracks, &sweep), totals);
+    totals->still += tracks.still || sweep.still ? 1 : 0;
+    totals->restarts += tracks.restarted || sweep.restarted ? 1 : 0;
   });
   add_all(points.finish(), &sums);
   return sums;
@@ -190,7 +194,7 @@ void print_totals(const Totals& totals) {
   say(totals.unknown_label, "points of unknown classes");
   say(totals.dynamic_dropped, "points of moving things dropped");
   say(totals.still, "images without parallax left out");
-  say(totals.restarts, "restarts of all tracks (a jump of the pose, another image size)");
+  say(totals.restarts, "restarts (a jump of the pose, another image size, time going back)");
   std::cout << '\n';
   if (totals.used == 0) {
     throw std::runtime_error(
@@ -250,9 +254,10 @@ int main(int argc, char** argv) {
   add_input_options(app, options);
   add_point_options(app, options);
   add_carving_options(app, options.map.carving);
-  app.footer(dataset_layouts_help() +
-             "\n\nExamples:\n"
-             "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points both\n"
-             "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
+  app.footer(
+      dataset_layouts_help() +
+      "\n\nExamples:\n"
+      "  map_bag ~/kitti/2011_09_26/2011_09_26_drive_0009_sync map.ply --points stereo,lidar\n"
+      "  map_bag ~/strecha/fountain_p11 map.ply --points-mesh dense.ply --fit-scale");
   return run_tool(app, argc, argv, [&] { run(app, options); });
 }

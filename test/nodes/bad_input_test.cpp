@@ -139,6 +139,12 @@ TEST_F(BadInputTest, UnusableSegmentation) {
                         [](auto& frame) { frame.segmentation.encoding = "32FC1"; });
   expect_stereo_problem("unusable segmentation",
                         [](auto& frame) { frame.segmentation.encoding = ""; });
+  expect_stereo_problem("segmentation resampled", [](auto& frame) {
+    frame.segmentation.width /= 2;
+    frame.segmentation.step /= 2;
+    frame.segmentation.height /= 2;
+    frame.segmentation.data.resize(frame.segmentation.data.size() / 4);
+  });
   expect_stereo_problem("segmentation of another size", [](auto& frame) {
     frame.segmentation.height /= 2;
     frame.segmentation.data.resize(frame.segmentation.data.size() / 2);

@@ -19,7 +19,7 @@ import rospkg
 import rostest
 
 PACKAGE = "facet_mapping"
-NODES = ["stereo_points", "lidar_points", "segmenter", "mapper", "refiner"]
+NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "segmenter", "mapper", "refiner"]
 FOLDER = rospkg.RosPack().get_path(PACKAGE)
 LAUNCH_FILES = sorted(glob.glob(os.path.join(FOLDER, "launch", "*.launch")))
 

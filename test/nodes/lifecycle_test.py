@@ -14,9 +14,10 @@ import rosservice
 import rostest
 
 PACKAGE = "facet_mapping"
-NODES = ["stereo_points", "lidar_points", "mapper", "refiner"]
-NODELETS = {"stereo_points": "StereoPoints", "lidar_points": "LidarPoints", "mapper": "Mapper",
-            "refiner": "Refiner"}
+NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "mapper", "refiner"]
+NODELETS = {"stereo_points": "StereoPoints", "track_points": "TrackPoints",
+            "sweep_points": "SweepPoints", "lidar_points": "LidarPoints",
+            "mapper": "Mapper", "refiner": "Refiner"}
 # Far more than a node needs, so that a slow machine does not fail the test.
 TIMEOUT_S = 30
 

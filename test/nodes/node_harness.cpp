@@ -73,6 +73,11 @@ std::uint64_t DiagnosticsEar::value(const std::string& node, const std::string& 
   return static_cast<std::uint64_t>(std::stod(found->second.at(key)));
 }
 
+std::string DiagnosticsEar::text(const std::string& node, const std::string& key) const {
+  const auto found = values_.find(node);
+  return found == values_.end() || found->second.count(key) == 0 ? "" : found->second.at(key);
+}
+
 bool DiagnosticsEar::hears(const std::string& node) {
   const std::uint64_t before = messages_[node];
   return wait_until([&] { return messages_[node] > before; });

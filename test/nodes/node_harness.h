@@ -30,6 +30,8 @@ class DiagnosticsEar {
   DiagnosticsEar();
   /// The value of a key such as "problem: no transform"; 0 before it appears.
   std::uint64_t value(const std::string& node, const std::string& key) const;
+  /// The value as it was written; empty before it appears.
+  std::string text(const std::string& node, const std::string& key) const;
   /// True if the node has published after now.
   bool hears(const std::string& node);
   /// True if the counter rises above what it is now because of `action`, and the node lives on.

@@ -52,6 +52,7 @@ Frame read_frame(const std::string& folder, const std::string& name) {
 struct Errors {
   std::vector<double> absolute;  // pixels
   std::size_t outliers = 0;      // off by more than 3 px and 5 %
+  std::size_t within_sigmas[3] = {0, 0, 0};
 
   void add(double disparity, double truth) {
     if (truth > 0.0 && disparity > 0.0) {
@@ -59,6 +60,16 @@ struct Errors {
       absolute.push_back(error);
       outliers += error > 3.0 && error > 0.05 * truth ? 1 : 0;
     }
+  }
+
+  void add_sigma(double error_in_sigmas) {
+    for (int k = 0; k < 3; ++k) {
+      within_sigmas[k] += error_in_sigmas < k + 1 ? 1 : 0;
+    }
+  }
+
+  double share_within(int sigmas) const {
+    return static_cast<double>(within_sigmas[sigmas - 1]) / static_cast<double>(absolute.size());
   }
 
   double median() {
@@ -106,14 +117,21 @@ TEST(RealStereo, PointsAgreeWithLidarAndAreManyButNoneInTheSky) {
     for (const LabeledPoint& point : points) {
       const Eigen::Vector2d pixel = camera.project(point.position.cast<double>());
       EXPECT_NE(point.label, sky);
-      errors.add(kFocal * kBaseline / point.position.z(),
-                 frame.true_disparity.at<double>(static_cast<int>(std::lround(pixel.y())),
-                                                 static_cast<int>(std::lround(pixel.x()))));
+      const double truth = frame.true_disparity.at<double>(
+          static_cast<int>(std::lround(pixel.y())), static_cast<int>(std::lround(pixel.x())));
+      errors.add(kFocal * kBaseline / point.position.z(), truth);
+      if (truth > 0.0) {
+        errors.add_sigma(std::abs(point.position.z() - kFocal * kBaseline / truth) / point.sigma);
+      }
     }
   }
   ASSERT_GT(errors.absolute.size(), 500U);
   EXPECT_LT(errors.median(), 0.4);
   EXPECT_LT(errors.outlier_share(), 0.03);
+  // A normal distribution's are 68, 95 and 99.7 %.
+  EXPECT_NEAR(errors.share_within(1), 0.68, 0.1);
+  EXPECT_GT(errors.share_within(2), 0.9);
+  EXPECT_GT(errors.share_within(3), 0.94);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/points/stereo_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -82,11 +83,44 @@ TEST(StereoPoints, CarrySigmaAndTheLabelOfTheirPixel) {
   ASSERT_FALSE(points.empty());
   EXPECT_EQ(report.points, points.size());
   EXPECT_GT(report.matched_pixels, left.total() / 2);
+  double surest = 10.0;
   for (const LabeledPoint& point : points) {
     EXPECT_EQ(point.label, labels.at<Label>(pixel_of(point, camera)));
+    // Never below the least doubt; a perfect pair leaves hardly any other.
     const double depth = point.position.z();
-    EXPECT_NEAR(point.sigma, depth * depth * 0.5 / (camera.fx * kBaseline), 1e-4);
+    const double typical = depth * depth * 0.5 / (camera.fx * kBaseline);
+    EXPECT_GT(point.sigma, 0.79 * typical);
+    EXPECT_LT(point.sigma, 3.0 * typical);
+    surest = std::min(surest, point.sigma / typical);
   }
+  EXPECT_LT(surest, 1.0);
+}
+
+double mean_sigma(const std::vector<LabeledPoint>& points,
+                  bool upper,
+                  const PinholeCamera& camera) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const LabeledPoint& point : points) {
+    if ((pixel_of(point, camera).y < 80) == upper) {
+      sum += point.sigma;
+      ++count;
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+TEST(StereoPoints, AreLessSureWhereTheImageIsNoisy) {
+  const auto [left, right] = make_pair(320, 160, 1, {20.0, 0.0, 0.0});
+  cv::Mat noisy = right.clone();
+  cv::Mat noise(80, 320, CV_16SC1);
+  cv::RNG random(5);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 20.0);
+  cv::Mat upper = noisy.rowRange(0, 80);
+  cv::add(upper, noise, upper, cv::noArray(), CV_8U);
+  const PinholeCamera camera = make_camera(left);
+  const auto points = stereo_points(left, noisy, {}, camera, kBaseline, small_config());
+  EXPECT_GT(mean_sigma(points, true, camera), 1.1 * mean_sigma(points, false, camera));
 }
 
 TEST(StereoPoints, HaveNoClassWithoutLabels) {

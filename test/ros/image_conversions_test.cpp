@@ -178,5 +178,41 @@ TEST(Labels, PngIsReadAndLossyFormatsAreRefused) {
       message_of([&] { labels_from_message(truncated, two_classes(), "t", nullptr); }), "damaged"));
 }
 
+sensor_msgs::Image confidence_message(const std::string& encoding, const cv::Mat& values) {
+  return *cv_bridge::CvImage({}, encoding, values).toImageMsg();
+}
+
+TEST(Confidence, EveryEncodingHasItsCertainty) {
+  const cv::Mat narrow = (cv::Mat_<std::uint8_t>(1, 2) << 255, 51);
+  const cv::Mat wide = (cv::Mat_<std::uint16_t>(1, 2) << 65535, 13107);
+  const cv::Mat real = (cv::Mat_<float>(1, 2) << 1.0F, 0.2F);
+  for (const auto& message : {confidence_message("mono8", narrow),
+                              confidence_message("mono16", wide),
+                              confidence_message("32FC1", real)}) {
+    const cv::Mat confidence = confidence_from_message(message, "t");
+    EXPECT_FLOAT_EQ(confidence.at<float>(0), 1.0F) << message.encoding;
+    EXPECT_FLOAT_EQ(confidence.at<float>(1), 0.2F) << message.encoding;
+  }
+  EXPECT_NE(message_of([&] {
+              confidence_from_message(confidence_message("rgb8", cv::Mat(1, 2, CV_8UC3)), "t");
+            }),
+            "");
+}
+
+TEST(Confidence, UnsurePixelsAreHidden) {
+  cv::Mat labels = (cv::Mat_<Label>(2, 2) << 1, 2, 3, 4);
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  hide_unsure_pixels((cv::Mat_<float>(2, 2) << 0.5F, 0.49F, not_a_number, 1.0F), 0.5, &labels);
+  EXPECT_EQ(labels.at<Label>(0, 0), 1);
+  EXPECT_EQ(labels.at<Label>(0, 1), kUnlabelled);
+  EXPECT_EQ(labels.at<Label>(1, 0), kUnlabelled);
+  EXPECT_EQ(labels.at<Label>(1, 1), 4);
+
+  cv::Mat large(4, 4, CV_16UC1, cv::Scalar(7));
+  hide_unsure_pixels((cv::Mat_<float>(1, 2) << 0.0F, 1.0F), 0.5, &large);
+  EXPECT_EQ(large.at<Label>(3, 1), kUnlabelled);
+  EXPECT_EQ(large.at<Label>(3, 2), 7);
+}
+
 }  // namespace
 }  // namespace facet_mapping

@@ -13,6 +13,7 @@
 #include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/points/sweep_points.h"
 #include "facet_mapping/points/track_points.h"
 
 namespace facet_mapping {
@@ -21,15 +22,17 @@ struct DatasetPointsConfig {
   bool stereo = true;   ///< points of the stereo pair
   bool lidar = false;   ///< points of the scan
   bool tracks = false;  ///< points of features followed through the left images
+  bool sweep = false;   ///< points of plane sweeping between the left images
   StereoConfig stereo_config;
   SkyConfig sky_config;
   CloudConfig cloud_config;
   TrackConfig track_config;
+  SweepConfig sweep_config;
 };
 
 /// One sensor's points at one instant.
 struct SensorPoints {
-  std::string sensor;  ///< "stereo", "lidar" or "tracks"
+  std::string sensor;  ///< "stereo", "lidar", "tracks" or "sweep"
   PointFrame frame;
 };
 
@@ -45,10 +48,13 @@ class DatasetPoints {
   /// files.
   std::vector<SensorPoints> read(std::size_t frame) const;
 
-  /// Feature tracks know a frame's points only after the next ones: give the frames to follow() in
-  /// the order of their stamps. It returns the points of earlier frames that are complete now, and
-  /// the sky of this one. Nothing if tracks are not wanted. Throws as read() does.
-  std::vector<SensorPoints> follow(std::size_t frame, TrackReport* report = nullptr);
+  /// Feature tracks and plane sweeping know a frame's points only after the next ones: give the
+  /// frames to follow() in the order of their stamps. It returns the points of earlier frames that
+  /// are complete now, and the sky of this one. Nothing if neither is wanted. Throws as read()
+  /// does.
+  std::vector<SensorPoints> follow(std::size_t frame,
+                                   TrackReport* tracks = nullptr,
+                                   SweepReport* sweep = nullptr);
 
   /// The points of the frames that follow() still held back.
   std::vector<SensorPoints> finish();
@@ -61,6 +67,7 @@ class DatasetPoints {
   LabelSet labels_;
   DatasetPointsConfig config_;
   FeatureTracker tracker_;
+  PlaneSweeper sweeper_;
 };
 
 /// The frame's segmentation as CV_16UC1 ids of the class list, size of its camera; empty where the

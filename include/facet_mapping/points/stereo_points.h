@@ -21,7 +21,7 @@ struct StereoConfig {
   int speckle_size_px = 200;             ///< smaller regions of similar disparity are dropped
   double edge_jump_px = 1.5;        ///< disparities of neighbours that differ more are a depth edge
   int edge_margin_px = 2;           ///< pixels so near to a depth edge or a hole are dropped
-  double disparity_sigma_px = 0.5;  ///< matching noise that the range limit and sigma come from
+  double disparity_sigma_px = 0.5;  ///< noise of a typical match, that sigma comes from
   double max_relative_sigma = 0.05;  ///< points with sigma / depth above this are dropped
   double min_depth_m = 1.0;          ///< nearer points are dropped
   double max_depth_m = 60.0;         ///< farther points are dropped
@@ -38,15 +38,17 @@ struct StereoReport {
 };
 
 /// Disparity (CV_32F, pixels, NaN where none) of a rectified 8-bit grey pair: semi-global matching
-/// (Hirschmueller 2008; OpenCV's three-path form), checked against a match in the other direction
-/// at half size. Pairs smaller than the window give NaN.
+/// (Hirschmueller 2008; OpenCV's three-path form), the near half of the search range at half size,
+/// checked against a match in the other direction at half size. Pairs smaller than the window give
+/// NaN.
 /// Throws std::invalid_argument on unequal sizes, other types or a config out of range.
 cv::Mat stereo_disparity(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config);
 
 /// Thinned points in the left camera's optical frame, metres, each disparity refined on the images.
 /// `labels` (CV_16UC1 ids, size of the image) may be empty: then no point has a class. Pixels near
 /// depth edges, out of range or of an excluded class give no point; an empty pair gives none.
-/// sigma = depth^2 * disparity_sigma_px / (fx * baseline_m).
+/// sigma = depth^2 * disparity_sigma_px * doubt / (fx * baseline_m); the doubt of a match (0.8 or
+/// more) grows with its residual, with missing texture and near other surfaces.
 /// Throws std::invalid_argument as stereo_disparity does, and if camera, labels or baseline do not
 /// fit the images.
 std::vector<LabeledPoint> stereo_points(const cv::Mat& left,

@@ -44,4 +44,12 @@ cv::Mat labels_from_message(const sensor_msgs::CompressedImage& image,
                             const std::string& topic,
                             LabelImageReport* report);
 
+/// CV_32FC1, 0 to 1, of a confidence image: mono8 or mono16 (the largest value is certain), or
+/// 32FC1 from 0 to 1.
+cv::Mat confidence_from_message(const sensor_msgs::Image& image, const std::string& topic);
+
+/// Makes pixels of class ids (CV_16UC1) kUnlabelled whose confidence (CV_32FC1, of any size of the
+/// same field of view) is below `min_confidence` or not a number.
+void hide_unsure_pixels(const cv::Mat& confidence, double min_confidence, cv::Mat* labels);
+
 }  // namespace facet_mapping

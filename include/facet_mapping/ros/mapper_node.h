@@ -55,7 +55,7 @@ class MapperNode {
   Config config_;
   LabelSet labels_;
   NodeDiagnostics diagnostics_;
-  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::Buffer tf_buffer_{ros::Duration(kTfCacheS)};
   tf2_ros::TransformListener tf_listener_;
   TransformQueue transforms_;
   TimeJumpDetector time_jump_;

@@ -11,6 +11,8 @@
 #include "facet_mapping/points/lidar_points.h"
 #include "facet_mapping/points/sky_points.h"
 #include "facet_mapping/points/stereo_points.h"
+#include "facet_mapping/points/sweep_points.h"
+#include "facet_mapping/points/track_points.h"
 #include "facet_mapping/refinement/refiner.h"
 #include "facet_mapping/ros/parameters.h"
 
@@ -23,9 +25,10 @@ struct SegmentationInput {
   std::string label_file = "cityscapes";  ///< path, or the name of a shipped list
   bool use_segmentation = true;           ///< false: geometry only
   ImageTransport transport = ImageTransport::kRaw;
-  bool resize = false;     ///< accept label images of another size
-  double timeout_s = 2.0;  ///< how long an image waits for its segmentation, wall time
-  double cache_s = 5.0;    ///< how long incomplete frames are kept, wall time
+  bool resize = true;           ///< accept label images of another size, if of the same shape
+  double timeout_s = 2.0;       ///< how long an image waits for its segmentation, wall time
+  double cache_s = 5.0;         ///< how long incomplete frames are kept, wall time
+  double min_confidence = 0.0;  ///< less sure pixels are unlabelled; 0: no confidence images
 };
 
 /// What happens when stamps run backwards (a bag played in a loop).
@@ -50,6 +53,25 @@ struct StereoPointsNodeConfig {
   int queue_size = 200;  ///< pairs that may wait for the matcher
   StereoConfig stereo;
   SkyConfig sky;
+};
+
+/// What the sources of points from one moving camera have in common.
+struct MovingCameraConfig {
+  SegmentationInput segmentation;
+  PoseInput pose;
+  int queue_size = 10;         ///< images that may wait for the worker
+  double flush_after_s = 2.0;  ///< without motion or images for so long, points wait no longer
+  SkyConfig sky;
+};
+
+struct TrackPointsNodeConfig {
+  MovingCameraConfig input;
+  TrackConfig tracks;
+};
+
+struct SweepPointsNodeConfig {
+  MovingCameraConfig input;
+  SweepConfig sweep;
 };
 
 /// A map whose memory does not grow with the length of the drive.
@@ -85,6 +107,8 @@ struct RefinerNodeConfig {
 
 /// The tables point into the struct, which must outlive them.
 ParameterTable parameter_table(StereoPointsNodeConfig* config);
+ParameterTable parameter_table(TrackPointsNodeConfig* config);
+ParameterTable parameter_table(SweepPointsNodeConfig* config);
 ParameterTable parameter_table(MapperNodeConfig* config);
 ParameterTable parameter_table(RefinerNodeConfig* config);
 

@@ -11,7 +11,6 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include "facet_mapping/ros/keyframe_input.h"
 #include "facet_mapping/ros/keyframe_store.h"
 #include "facet_mapping/ros/label_image_publisher.h"
 #include "facet_mapping/ros/map_mesh_input.h"
@@ -19,6 +18,7 @@
 #include "facet_mapping/ros/mesh_services.h"
 #include "facet_mapping/ros/node_config.h"
 #include "facet_mapping/ros/node_diagnostics.h"
+#include "facet_mapping/ros/posed_images.h"
 #include "facet_mapping/ros/refine_services.h"
 #include "facet_mapping/ros/refined_map.h"
 #include "facet_mapping/ros/transform_queue.h"
@@ -37,7 +37,8 @@ class RefinerNode {
   void stop();
 
  private:
-  void on_keyframe(const std_msgs::Header& header);
+  bool wants(const Eigen::Isometry3d& map_from_camera);
+  void on_image(LabeledView view, const std_msgs::Header& header);
   void on_time_jump(double jump_s);
   void on_result();
   void forget_everything();
@@ -47,7 +48,7 @@ class RefinerNode {
   Config config_;
   LabelSet labels_;
   NodeDiagnostics diagnostics_;
-  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::Buffer tf_buffer_{ros::Duration(kTfCacheS)};
   tf2_ros::TransformListener tf_listener_;
   TransformQueue transforms_;
   KeyframeStore keyframes_;
@@ -58,7 +59,7 @@ class RefinerNode {
   LabelImagePublisher label_image_;
   std::mutex header_mutex_;
   std_msgs::Header newest_header_;  // of the newest keyframe's image
-  KeyframeInput input_;
+  PosedImages input_;
   ros::ServiceServer reset_server_;
   RefineServices services_;  // last: it uses all the others
 };

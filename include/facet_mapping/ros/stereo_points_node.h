@@ -4,6 +4,10 @@
 // stereo_points: a rectified pair and its segmentation -> labelled points.
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include <boost/shared_ptr.hpp>
 #include <ros/node_handle.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -41,6 +45,9 @@ class StereoPointsNode {
   boost::shared_ptr<const sensor_msgs::CameraInfo> info_of(const StampedParts& parts, int part);
   Pair convert(const StampedParts& parts);
   void match(const Pair& pair);
+  /// Complains if the images cannot be a rectified pair; looks at the first pairs, then now and
+  /// then.
+  void check(const Pair& pair);
   void refresh_diagnostics();
 
   Config config_;
@@ -52,6 +59,7 @@ class StereoPointsNode {
   std::size_t unpaired_ = 0;  // of sync_, as far as complained about
   std::vector<std::string> topics_;
   boost::shared_ptr<const sensor_msgs::CameraInfo> last_info_[2];
+  std::size_t matched_pairs_ = 0;  // by the thread of jobs_
   ros::Publisher points_pub_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer poll_timer_;

@@ -19,6 +19,9 @@
 
 namespace facet_mapping {
 
+/// How far back a node remembers tf: clouds of slow sources come long after their images.
+constexpr double kTfCacheS = 60.0;
+
 /// All calls and callbacks in the thread of the node's callback queue.
 class TransformQueue {
  public:

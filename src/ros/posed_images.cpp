@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "facet_mapping/ros/keyframe_input.h"
+#include "facet_mapping/ros/posed_images.h"
 
 #include <stdexcept>
 #include <utility>
@@ -27,15 +27,13 @@ std::vector<StampSync::Part> parts_of(const SegmentationInput& config) {
 
 }  // namespace
 
-KeyframeInput::KeyframeInput(ros::NodeHandle nh,
-                             const SegmentationInput& config,
-                             const LabelSet& labels,
-                             KeyframeStore* store,
-                             TransformQueue* transforms,
-                             NodeDiagnostics* diagnostics,
-                             Callbacks callbacks)
+PosedImages::PosedImages(ros::NodeHandle nh,
+                         const SegmentationInput& config,
+                         const LabelSet& labels,
+                         TransformQueue* transforms,
+                         NodeDiagnostics* diagnostics,
+                         Callbacks callbacks)
     : config_(config),
-      store_(store),
       transforms_(transforms),
       diagnostics_(diagnostics),
       callbacks_(std::move(callbacks)),
@@ -53,7 +51,7 @@ KeyframeInput::KeyframeInput(ros::NodeHandle nh,
   });
 }
 
-void KeyframeInput::subscribe(ros::NodeHandle nh) {
+void PosedImages::subscribe(ros::NodeHandle nh) {
   image_subscriber_ = nh.subscribe<sensor_msgs::Image>(
       "image_rect", kQueueSize, [this](const sensor_msgs::ImageConstPtr& message) {
         diagnostics_->count_input(image_topic_);
@@ -72,9 +70,7 @@ void KeyframeInput::subscribe(ros::NodeHandle nh) {
   }
 }
 
-void KeyframeInput::receive(int part,
-                            const ros::Time& stamp,
-                            boost::shared_ptr<const void> message) {
+void PosedImages::receive(int part, const ros::Time& stamp, boost::shared_ptr<const void> message) {
   if (stamp.isZero()) {
     diagnostics_->complain("no stamp",
                            "a message has no stamp in its header; image, camera_info and "
@@ -91,34 +87,28 @@ void KeyframeInput::receive(int part,
   }
 }
 
-void KeyframeInput::look_up_pose(const StampedParts& parts) {
+void PosedImages::look_up_pose(const StampedParts& parts) {
   const auto image = parts.get<sensor_msgs::Image>(kImage);
   transforms_->push(image->header.frame_id,
                     parts.stamp,
                     [this, parts](const Eigen::Isometry3d& pose) { accept(parts, pose); });
 }
 
-void KeyframeInput::accept(const StampedParts& parts, const Eigen::Isometry3d& map_from_camera) {
-  if (!store_->wants(map_from_camera)) {
-    diagnostics_->count("images too near the last keyframe");
+void PosedImages::accept(const StampedParts& parts, const Eigen::Isometry3d& map_from_camera) {
+  if (callbacks_.is_wanted && !callbacks_.is_wanted(map_from_camera)) {
     return;
   }
   try {
     LabeledView view = convert(parts);
     view.view.world_from_cam = map_from_camera;
     view.stamp = parts.stamp.toSec();
-    const std::size_t dropped = store_->add(std::move(view));
-    diagnostics_->count("keyframes");
-    if (dropped > 0) {
-      diagnostics_->count("old keyframes dropped", dropped);
-    }
-    callbacks_.on_keyframe(parts.get<sensor_msgs::Image>(kImage)->header);
+    callbacks_.on_image(std::move(view), parts.get<sensor_msgs::Image>(kImage)->header);
   } catch (const std::invalid_argument& e) {
     diagnostics_->complain("unusable image", e.what());
   }
 }
 
-LabeledView KeyframeInput::convert(const StampedParts& parts) {
+LabeledView PosedImages::convert(const StampedParts& parts) {
   sensor_msgs::CameraInfoConstPtr info = parts.get<sensor_msgs::CameraInfo>(kInfo);
   if (info == nullptr) {
     info = last_info_;
@@ -139,14 +129,14 @@ LabeledView KeyframeInput::convert(const StampedParts& parts) {
                            "no segmentation for the image at " +
                                std::to_string(parts.stamp.toSec()) + " within " +
                                std::to_string(config_.timeout_s) +
-                               " s: the keyframe stays unlabelled. It must carry the image's exact "
+                               " s: the image goes on unlabelled. It must carry the image's exact "
                                "stamp; raise segmentation_timeout_s for a slow network, or set "
                                "use_segmentation to false");
   }
   return view;
 }
 
-void KeyframeInput::refresh_diagnostics() {
+void PosedImages::refresh_diagnostics() {
   const StampSync::Counts& counts = sync_.counts();
   diagnostics_->set("frames waiting for a part", static_cast<double>(sync_.waiting()));
   diagnostics_->set("messages too late for their frame", static_cast<double>(counts.late));

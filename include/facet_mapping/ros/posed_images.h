@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// image_rect, camera_info, segmentation and tf -> keyframes.
+// image_rect, camera_info, segmentation and tf -> images with pose and classes.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-#include "facet_mapping/ros/keyframe_store.h"
+#include "facet_mapping/labels/labeled_view.h"
 #include "facet_mapping/ros/node_diagnostics.h"
 #include "facet_mapping/ros/segmentation_reader.h"
 #include "facet_mapping/ros/stamp_sync.h"
@@ -22,22 +22,24 @@
 namespace facet_mapping {
 
 /// All calls and callbacks in the thread of the node's callback queue.
-class KeyframeInput {
+class PosedImages {
  public:
   struct Callbacks {
-    std::function<void(const std_msgs::Header&)> on_keyframe;
+    /// Asked before an image is decoded; may be empty: all are wanted.
+    std::function<bool(const Eigen::Isometry3d& map_from_camera)> is_wanted;
+    /// The header is the image's.
+    std::function<void(LabeledView, const std_msgs::Header&)> on_image;
     std::function<void(double jump_s)> on_time_jump;
   };
 
-  KeyframeInput(ros::NodeHandle nh,
-                const SegmentationInput& config,
-                const LabelSet& labels,
-                KeyframeStore* store,
-                TransformQueue* transforms,
-                NodeDiagnostics* diagnostics,
-                Callbacks callbacks);
+  PosedImages(ros::NodeHandle nh,
+              const SegmentationInput& config,
+              const LabelSet& labels,
+              TransformQueue* transforms,
+              NodeDiagnostics* diagnostics,
+              Callbacks callbacks);
 
-  /// Forgets the frames that wait for a part.
+  /// Forgets the images that wait for a part.
   void clear() { sync_.clear(); }
   void refresh_diagnostics();
 
@@ -49,7 +51,6 @@ class KeyframeInput {
   LabeledView convert(const StampedParts& parts);
 
   SegmentationInput config_;
-  KeyframeStore* store_;
   TransformQueue* transforms_;
   NodeDiagnostics* diagnostics_;
   Callbacks callbacks_;
