@@ -116,7 +116,7 @@ class Carrier {
       part_from_sensor_ =
           parts_[part_].world_from_sensor.inverse(Eigen::Isometry) * pose_at(path_, time, needed_);
     }
-    parts_[part_].points.push_back((part_from_sensor_ * point.cast<double>()).cast<float>());
+    parts_[part_].points.emplace_back((part_from_sensor_ * point.cast<double>()).cast<float>());
   }
 
   std::vector<CompensatedScan> take() {

@@ -270,7 +270,9 @@ void LidarPointsNode::set_labels(const FramePtr& frame, const NearestLabels::Ima
 }
 
 void LidarPointsNode::find_sensor(const FramePtr& frame) {
-  const bool needs_no_pose = frame->job.scan.offsets_s.empty() && frame->image.message == nullptr;
+  // With segmentation the scan may have to hide points of the next ones: the map must know where.
+  const bool needs_no_pose =
+      frame->job.scan.offsets_s.empty() && !config_.segmentation.use_segmentation;
   if (needs_no_pose) {
     frame->job.map_from_sensor = {{frame->job.scan.stamp, Eigen::Isometry3d::Identity()}};
     post(frame);
