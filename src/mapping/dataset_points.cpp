@@ -25,6 +25,15 @@ void append(std::vector<PointFrame> frames, const char* sensor, std::vector<Sens
   }
 }
 
+/// All points of a scan, so that those which thinning drops still hide what is behind them.
+std::vector<LabeledPoint> labeled_points(const std::vector<Eigen::Vector3f>& scan) {
+  std::vector<LabeledPoint> points;
+  for (const Eigen::Vector3f& position : scan) {
+    points.push_back({position, kUnlabelled, 0.0F});
+  }
+  return points;
+}
+
 }  // namespace
 
 cv::Mat frame_label_image(const DatasetFrame& frame, const LabelSet& labels) {
@@ -131,8 +140,13 @@ SensorPoints DatasetPoints::read_lidar(const DatasetFrame& frame, const cv::Mat&
   if (!labels.empty()) {
     ImageLabelConfig config;
     config.excluded_labels = labels_.sky_ids();
-    label_points_from_image(
-        result.frame.points, dataset_.left_from_velo, frame.view.camera, labels, config);
+    const std::vector<LabeledPoint> whole_scan = labeled_points(scan);
+    label_points_from_image(result.frame.points,
+                            dataset_.left_from_velo,
+                            frame.view.camera,
+                            labels,
+                            config,
+                            {{&whole_scan, dataset_.left_from_velo}});
   }
   return result;
 }
