@@ -22,8 +22,8 @@ float depth_there(const SweepImage& other, const Eigen::Vector3d& in_other) {
   if (in_other.z() > 0.0) {
     const Eigen::Vector2d pixel = camera.project(in_other);
     if (camera.contains(pixel)) {
-      return other.inverse_depth.at<float>(static_cast<int>(pixel.y() + 0.5),
-                                           static_cast<int>(pixel.x() + 0.5));
+      return other.inverse_depth.at<float>(static_cast<int>(std::lround(pixel.y())),
+                                           static_cast<int>(std::lround(pixel.x())));
     }
   }
   return std::numeric_limits<float>::quiet_NaN();
@@ -33,6 +33,7 @@ class Agreement {
  public:
   Agreement(const SweepImage& reference, const std::vector<const SweepImage*>& others)
       : camera_(reference.small_view.camera), others_(others) {
+    motions_.reserve(others.size());
     for (const SweepImage* other : others) {
       motions_.emplace_back(reference.small_view, other->small_view);
     }
@@ -67,6 +68,7 @@ class Agreement {
 
 cv::Mat depth_precision(const SweepImage& reference, const std::vector<const SweepImage*>& others) {
   std::vector<RayMotion> motions;
+  motions.reserve(others.size());
   for (const SweepImage* other : others) {
     motions.emplace_back(reference.small_view, other->small_view);
   }

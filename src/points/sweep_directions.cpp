@@ -34,7 +34,9 @@ std::optional<Eigen::Vector3d> fit_piece(const cv::Mat& inverse_depth, const cv:
     const auto* row = inverse_depth.ptr<float>(piece.y + y) + piece.x;
     for (int x = 0; x < piece.width; ++x) {
       if (std::isfinite(row[x])) {
-        const Eigen::Vector3d place(x - piece.width / 2, y - piece.height / 2, 1.0);
+        const int across = x - piece.width / 2;
+        const int down = y - piece.height / 2;
+        const Eigen::Vector3d place(across, down, 1.0);
         matrix += place * place.transpose();
         right += row[x] * place;
         squares += static_cast<double>(row[x]) * row[x];

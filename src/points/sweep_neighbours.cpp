@@ -24,8 +24,9 @@ bool is_neighbour(const View& reference,
   const double least_cosine = std::cos(config.max_parallax_deg * kRadiansPerDegree);
   int shared = 0;
   for (int n = 0; n < kColumns * kRows; ++n) {
+    const int row = n / kColumns;
     const Eigen::Vector2d pixel((n % kColumns + 0.5) / kColumns * reference.camera.width,
-                                (n / kColumns + 0.5) / kRows * reference.camera.height);
+                                (row + 0.5) / kRows * reference.camera.height);
     const Eigen::Vector3d point =
         reference.world_from_cam * (depth_m * reference.camera.ray(pixel));
     const Eigen::Vector3d in_other = other_from_world * point;

@@ -25,9 +25,11 @@ std::vector<double> motions(const View& reference,
   for (const View& other : others) {
     const RayMotion motion(reference, other);
     for (int n = 0; n < kColumns * kRows * kDistances; ++n) {
+      const int row = n / kColumns % kRows;
+      const int distance = n / (kColumns * kRows);
       const double x = (n % kColumns + 0.5) / kColumns * camera.width;
-      const double y = (n / kColumns % kRows + 0.5) / kRows * camera.height;
-      const double place = (n / (kColumns * kRows) + 0.5) / kDistances;
+      const double y = (row + 0.5) / kRows * camera.height;
+      const double place = (distance + 0.5) / kDistances;
       const Eigen::Vector3d ray = camera.ray({x, y});
       const double slope = normal.dot(ray);
       const double inverse = slope * (distances.low + place * (distances.high - distances.low));

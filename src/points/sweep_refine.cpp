@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "sweep_planes.h"
 #include <Eigen/LU>
@@ -16,13 +17,14 @@ namespace {
 constexpr int kRadius = 4;  // of the compared patch, pixels
 constexpr int kSide = 2 * kRadius + 1;
 constexpr int kArea = kSide * kSide;
-constexpr int kSlantRadius = 5;  // of the window that the slant is measured in, pixels
-constexpr int kMostIterations = 4;
+constexpr int kSlantRadius = 5;         // of the window that the slant is measured in, pixels
+constexpr int kMostIterations = 3;      // before and after hidden images are left out
 constexpr double kSmallChange = 0.02;   // pixels; a smaller step ends the iteration
 constexpr double kLargestChange = 2.5;  // pixels; farther away is another minimum
 constexpr float kLeastContrast = 1.5F;  // standard deviation of a patch, grey values
 constexpr float kNoContrast = 0.5F;     // as of a saturated sky: there depths are guesses
-constexpr float kUnlike = 0.3F;         // at the start; such images do not see the patch
+constexpr float kUnlike = 0.3F;         // correlation; such images do not show the patch ...
+constexpr float kLessLike = 0.2F;       // ... nor those that are less like it by this
 constexpr double kFlatPrecision = 0.5;  // of a depth that the texture does not refine
 constexpr float kHalf = 0.5F;           // pixels to either side that the slope is measured over
 
@@ -175,16 +177,30 @@ class Refinement {
 
   /// Drops the images that do not show the patch; false if too few are left.
   bool choose(bool is_flat) {
-    std::vector<OtherImage> seeing;
+    std::vector<OtherImage> having;
     for (OtherImage& image : images_) {
       if (image.sample(start_)) {
-        ++having_;
-        if (is_flat || image.likeness(wanted_) > kUnlike) {
-          seeing.push_back(image);
-        }
+        having.push_back(image);
       }
     }
-    images_ = std::move(seeing);
+    having_ = having.size();
+    images_ = std::move(having);
+    return is_flat ? !images_.empty() : drop_unlike();
+  }
+
+  /// Drops the images that look less like the reference than the best one does; false if fewer than
+  /// half are left.
+  bool drop_unlike() {
+    float best = kUnlike;
+    for (const OtherImage& image : images_) {
+      best = std::max(best, image.likeness(wanted_) - kLessLike);
+    }
+    std::vector<OtherImage> like;
+    std::copy_if(
+        images_.begin(), images_.end(), std::back_inserter(like), [&](const OtherImage& image) {
+          return image.likeness(wanted_) >= best;
+        });
+    images_ = std::move(like);
     return !images_.empty() && 2 * images_.size() >= having_;
   }
 
@@ -271,6 +287,11 @@ RefinedDepth refine_depth(const SweepImage& reference,
   }
   if (is_flat) {
     return refinement.unrefined();
+  }
+  refinement.iterate();
+  // Now that the depth is better, an image in which the patch is half hidden stands out.
+  if (!refinement.drop_unlike()) {
+    return {};
   }
   refinement.iterate();
   return refinement.result();

@@ -31,6 +31,7 @@ SweepConfig near_scene() {
 
 std::vector<TrackPicture> drive(const TrackScene& scene, int frames, const Eigen::Vector3d& step) {
   std::vector<TrackPicture> pictures;
+  pictures.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k) {
     pictures.push_back(test::take_picture(scene, test::track_view(k * step)));
   }
@@ -189,6 +190,7 @@ TEST(SweepPoints, StandingStillGivesNoPointsAndSaysSo) {
 
 TEST(SweepPoints, TurningOnTheSpotIsNoMotion) {
   std::vector<TrackPicture> pictures;
+  pictures.reserve(4);
   for (int k = 0; k < 4; ++k) {
     pictures.push_back(
         test::take_picture(TrackScene(), test::track_view(Eigen::Vector3d::Zero(), 0.05 * k)));
