@@ -48,7 +48,8 @@ class LaunchFilesTest(unittest.TestCase):
 
     def test_every_argument_is_documented(self):
         for path in LAUNCH_FILES:
-            for argument in ElementTree.parse(path).getroot().findall("arg"):
+            arguments = ElementTree.parse(path).getroot().findall("arg")
+            for argument in [a for a in arguments if a.get("value") is None]:
                 self.assertTrue(argument.get("doc"), "%s: %s" % (path, argument.get("name")))
 
     def test_every_program_exists(self):
@@ -69,14 +70,39 @@ class LaunchFilesTest(unittest.TestCase):
     def test_kitti_topics(self):
         kitti = os.path.join(FOLDER, "launch", "kitti.launch")
         config = load(kitti, "lidar:=true", "bag:=/data/drive.bag")
-        self.assertEqual(config.params["/mapper/point_topics"].value, ["points", "point_cloud"])
+        self.assertEqual(config.params["/mapper/point_topics"].value,
+                         ["stereo_points/points", "lidar_points/points"])
         nodes = {node.name: node for node in config.nodes}
         self.assertIn(("point_cloud", "/kitti/velo/pointcloud"),
-                      [(a.strip("/"), b) for a, b in nodes["mapper"].remap_args])
+                      [(a.strip("/"), b) for a, b in nodes["lidar_points"].remap_args])
         self.assertIn("/data/drive.bag", nodes["player"].args)
         self.assertNotIn("player", [node.name for node in load(kitti).nodes])
-        self.assertEqual(load(kitti).params["/mapper/point_topics"].value, ["points"])
+        self.assertEqual(load(kitti).params["/mapper/point_topics"].value,
+                         ["stereo_points/points"])
         self.assertTrue(load(kitti).params["/use_sim_time"].value)
+
+    def test_arguments_that_mean_nothing_are_refused(self):
+        custom = os.path.join(FOLDER, "launch", "custom.launch")
+        for arguments, name in [(["camera:=momo"], "camera_must_be"),
+                                (["camera:=none"], "lidar_must_be_true"),
+                                (["segmentation:=yes"], "segmentation_must_be"),
+                                (["segmentation:=forest"], "model_must_be_given"),
+                                (["mono_points:=dense"], "mono_points_must_be")]:
+            with self.assertRaisesRegex(roslaunch.xmlloader.XmlParseException, name):
+                load(custom, *arguments)
+
+    def test_every_overlay_sets_only_parameters_that_are_read(self):
+        known = {node: documented(node) for node in NODES}
+        overlays = sorted(glob.glob(os.path.join(FOLDER, "config", "datasets", "*.yaml")))
+        self.assertGreaterEqual(len(overlays), 6)
+        for overlay in overlays:
+            for rig in [["camera:=mono", "mono_points:=both", "lidar:=true"], ["camera:=stereo"]]:
+                config = load(os.path.join(FOLDER, "launch", "custom.launch"), "overlay:=" + overlay,
+                              *rig)
+                for key in config.params:
+                    node, _, name = key.lstrip("/").partition("/")
+                    if node in known:
+                        self.assertIn(name, known[node], overlay)
 
     def test_a_namespace_around_is_followed(self):
         path = os.path.join(FOLDER, "launch", "custom.launch")

@@ -48,7 +48,8 @@ TEST_P(DisparityOfPlane, IsFound) {
   }
   ASSERT_GT(errors.size(), 0.9 * static_cast<double>(visible));
   std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], 0.15);
+  // The near half of the range is matched at half size.
+  EXPECT_LT(errors[errors.size() / 2], plane.at(160, 80) > 32.0 ? 0.5 : 0.15);
   EXPECT_LT(errors[errors.size() * 99 / 100], 1.0);
 }
 

@@ -67,6 +67,8 @@ TEST(StereoPoints, LieOnTheSlantedPlane) {
 TEST(StereoPoints, DoNotPreferWholePixels) {
   for (const double fraction : {0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
     EXPECT_LT(std::abs(mean(disparity_errors({20.0 + fraction, 0.0, 0.0}))), 0.03) << fraction;
+    // Near ones were matched at half size.
+    EXPECT_LT(std::abs(mean(disparity_errors({54.0 + fraction, 0.0, 0.0}))), 0.03) << fraction;
   }
 }
 

@@ -38,9 +38,10 @@ struct StereoReport {
 };
 
 /// Disparity (CV_32F, pixels, NaN where none) of a rectified 8-bit grey pair: semi-global matching
-/// (Hirschmueller 2008; OpenCV's three-path form), the near half of the search range at half size,
-/// checked against a match in the other direction at half size. Pairs smaller than the window give
-/// NaN.
+/// (Hirschmueller 2008; OpenCV's three-path form), checked against a match in the other direction
+/// at half size. The near half of the search range is matched at half size, so that disparities
+/// there are only good to half a pixel; stereo_points() refines them. Pairs smaller than the window
+/// give NaN.
 /// Throws std::invalid_argument on unequal sizes, other types or a config out of range.
 cv::Mat stereo_disparity(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config);
 
