@@ -7,9 +7,11 @@ road and prints how high the kerb is on both sides (src/tools/kerb_height.cpp in
 rosrun facet_mapping kerb_height.py _mesh_node:=/mapper
 rosrun facet_mapping kerb_height.py _mesh_node:=/refiner _refine:=true
 """
+import math
+import statistics
 import sys
+from collections import defaultdict
 
-import numpy
 import rospy
 from facet_mapping.msg import ClassPalette, Status
 from facet_mapping.srv import GetMesh, Refine
@@ -31,81 +33,92 @@ def call(name, kind, **request):
     return answer
 
 
-def triangles_of(mesh):
-    """Corners (n, 3, 3) in the map frame and labels (n) of the facets that images saw."""
-    corners, labels = [], []
+def facets_of(mesh):
+    """Corners in the map frame and label of each facet that images saw and that looks upward."""
     for chunk in mesh.chunks:
-        origin = numpy.array([chunk.origin.x, chunk.origin.y, chunk.origin.z])
-        vertices = origin + numpy.array([(v.x, v.y, v.z) for v in chunk.vertices])
-        seen = numpy.array(chunk.views) > 0 if chunk.views else slice(None)
-        corners.append(vertices[numpy.reshape(chunk.triangles, (-1, 3))][seen])
-        labels.append(numpy.array(chunk.labels)[seen])
-    if not corners:
-        raise RuntimeError("the mesh has neither road nor sidewalk")
-    return numpy.concatenate(corners), numpy.concatenate(labels)
+        o = chunk.origin
+        vertices = [(o.x + v.x, o.y + v.y, o.z + v.z) for v in chunk.vertices]
+        for facet, label in enumerate(chunk.labels):
+            corners = [vertices[k] for k in chunk.triangles[3 * facet:3 * facet + 3]]
+            x, y, z = cross(corners)
+            is_seen = not chunk.views or chunk.views[facet] > 0
+            if is_seen and z > MIN_UP * math.sqrt(x * x + y * y + z * z):
+                yield corners, label
+
+
+def cross(corners):
+    """Normal times twice the area."""
+    (ux, uy, uz), (vx, vy, vz) = ([p - q for p, q in zip(corner, corners[0])]
+                                  for corner in corners[1:])
+    return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
 
 
 def samples_of(corners):
     """Points on a facet, at most SAMPLE_SPACING_M apart."""
-    a, u, v = corners[0], corners[1] - corners[0], corners[2] - corners[0]
-    longest = max(numpy.linalg.norm(edge) for edge in (u, v, u - v))
-    steps = max(1, int(numpy.ceil(longest / SAMPLE_SPACING_M)))
-    i, j = numpy.meshgrid(numpy.arange(steps), numpy.arange(steps))
-    inside = i + j < steps
-    return (a + numpy.outer((i[inside] + 1 / 3) / steps, u)
-            + numpy.outer((j[inside] + 1 / 3) / steps, v))
+    a, b, c = corners
+    steps = max(1, math.ceil(max(math.dist(a, b), math.dist(b, c), math.dist(c, a))
+                             / SAMPLE_SPACING_M))
+    for i in range(steps):
+        for j in range(steps - i):
+            s, t = (i + 1 / 3) / steps, (j + 1 / 3) / steps
+            yield [p + s * (q - p) + t * (r - p) for p, q, r in zip(a, b, c)]
 
 
-def axis_of(corners, areas):
+def axis_of(road):
     """Middle of the road and the direction in which it extends most, seen from above."""
-    points, weights = corners[:, :, :2].reshape(-1, 2), numpy.repeat(areas, 3)
-    origin = numpy.average(points, axis=0, weights=weights)
-    along = numpy.linalg.eigh(numpy.cov((points - origin).T, aweights=weights))[1][:, 1]
-    return origin, -along if tuple(numpy.where(abs(along) > 1e-9, along, 0)) < (0, 0) else along
+    samples = [point for corners in road for point in samples_of(corners)]
+    if not samples:
+        raise RuntimeError("the mesh has no road")
+    x, y = (statistics.fmean(column) for column in list(zip(*samples))[:2])
+    xx, xy, yy = (statistics.fmean(products) for products in zip(
+        *(((p[0] - x) ** 2, (p[0] - x) * (p[1] - y), (p[1] - y) ** 2) for p in samples)))
+    angle = 0.5 * math.atan2(2 * xy, xx - yy)
+    return x, y, math.cos(angle), math.sin(angle)
 
 
 def height_at(border, samples):
-    distance = samples[:, 0] - border
-    band = (abs(distance) >= BAND_M[0]) & (abs(distance) <= BAND_M[1])
-    if band.sum() < MIN_SAMPLES:
-        return numpy.nan
-    return numpy.polyfit(distance[band], samples[band, 1], 1)[1]
+    """Of the line through the samples in the band beside the border; None with too few."""
+    band = [(distance - border, z) for distance, z in samples
+            if BAND_M[0] <= abs(distance - border) <= BAND_M[1]]
+    if len(band) < MIN_SAMPLES:
+        return None
+    mean, height = (statistics.fmean(column) for column in zip(*band))
+    spread = sum((distance - mean) ** 2 for distance, _ in band)
+    slope = sum((distance - mean) * (z - height) for distance, z in band) / max(spread, 1e-12)
+    return height - slope * mean
+
+
+def quantile(samples, share):
+    return sorted(distance for distance, _ in samples)[int(share * (len(samples) - 1))]
 
 
 def kerb_height(road, sidewalk):
-    """From (distance from the axis, height) of both; NaN where they do not meet."""
+    """From (distance from the axis, height) of both; None where they do not meet."""
     if min(len(road), len(sidewalk)) < MIN_SAMPLES:
-        return numpy.nan
-    road_end = numpy.quantile(road[:, 0], 0.98)
-    sidewalk_begin = numpy.quantile(sidewalk[:, 0], 0.02)
+        return None
+    road_end, sidewalk_begin = quantile(road, 0.98), quantile(sidewalk, 0.02)
     if abs(sidewalk_begin - road_end) > MAX_GAP_M:
-        return numpy.nan
+        return None
     border = 0.5 * (road_end + sidewalk_begin)
-    return height_at(border, sidewalk) - height_at(border, road)
+    heights = height_at(border, sidewalk), height_at(border, road)
+    return None if None in heights else heights[0] - heights[1]
 
 
-def heights_of(corners, labels, road):
+def heights_of(mesh, road):
     """(station in metres, side, height) along the road."""
-    crosses = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    areas = numpy.linalg.norm(crosses, axis=1)
-    up = crosses[:, 2] > MIN_UP * areas
-    corners, labels, areas = corners[up], labels[up], areas[up]
-    if not (labels == road).any():
-        raise RuntimeError("the mesh has no road")
-    origin, along = axis_of(corners[labels == road], areas[labels == road])
-    pieces = [samples_of(facet) for facet in corners]
-    is_road = numpy.repeat(labels == road, [len(piece) for piece in pieces])
-    points = numpy.concatenate(pieces)
-    flat = points[:, :2] - origin
-    lateral = flat @ numpy.array([-along[1], along[0]])
-    stations = numpy.floor(flat @ along / STATION_M)
-    profile = numpy.column_stack([abs(lateral), points[:, 2]])
-    for station in numpy.unique(stations):
-        for side, mine in (("left", lateral > 0), ("right", lateral <= 0)):
-            here = (stations == station) & mine
-            height = kerb_height(profile[here & is_road], profile[here & ~is_road])
-            if numpy.isfinite(height):
-                yield (station + 0.5) * STATION_M, side, height
+    facets = list(facets_of(mesh))
+    x, y, cosine, sine = axis_of([corners for corners, label in facets if label == road])
+    profiles = defaultdict(lambda: ([], []))  # of road and of sidewalk, by station and side
+    for corners, label in facets:
+        for px, py, pz in samples_of(corners):
+            along = cosine * (px - x) + sine * (py - y)
+            left = cosine * (py - y) - sine * (px - x)
+            place = math.floor(along / STATION_M), "left" if left > 0 else "right"
+            profiles[place][0 if label == road else 1].append((abs(left), pz))
+    for (station, side), profile in sorted(profiles.items()):
+        height = kerb_height(*profile)
+        if height is not None:
+            yield (station + 0.5) * STATION_M, side, height
 
 
 def main():
@@ -121,13 +134,13 @@ def main():
     if rospy.get_param("~refine", False):
         print(call(mesh_node + "/refine", Refine, classes=[road, sidewalk]).status.message)
     answer = call(mesh_node + "/get_mesh", GetMesh, classes=[road, sidewalk])
-    heights = list(heights_of(*triangles_of(answer.mesh), road))
+    heights = list(heights_of(answer.mesh, road))
     print("station_m side height_m")
     for row in heights:
         print("%.1f %s %.3f" % row)
     for side in ("left", "right"):
         mine = [height for _, its_side, height in heights if its_side == side]
-        print("%s: median %.3f m of %d stations" % (side, numpy.median(mine), len(mine)) if mine
+        print("%s: median %.3f m of %d stations" % (side, statistics.median(mine), len(mine)) if mine
               else side + ": no border between road and sidewalk")
 
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <facet_mapping/ClassPalette.h>
 #include <facet_mapping/GetMesh.h>
 #include <facet_mapping/Refine.h>
@@ -126,33 +126,25 @@ struct Axis {
 };
 
 Axis axis_of(const TriangleMesh& mesh, Label road) {
-  double area = 0.0;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  std::vector<Eigen::Vector2d> points;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (mesh.labels[f] != road) {
-      continue;
-    }
-    const double weight = facet_cross(mesh, f).norm();
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      const Eigen::Vector2d p = mesh.vertices[v].head<2>();
-      area += weight;
-      sum += weight * p;
-      squares += weight * p * p.transpose();
+    if (mesh.labels[f] == road) {
+      sample(mesh, f, [&](const Eigen::Vector3d& p) { points.emplace_back(p.head<2>()); });
     }
   }
-  if (!(area > 0.0)) {
+  if (points.empty()) {
     throw std::runtime_error("the mesh has no road");
   }
   Axis axis;
-  axis.origin = sum / area;
-  const Eigen::Matrix2d spread = squares / area - axis.origin * axis.origin.transpose();
-  axis.along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
-  // Of the two directions that with x (or else y) rising, so that left and right are always the
-  // same.
-  if (axis.along.x() < -1e-9 || (std::abs(axis.along.x()) <= 1e-9 && axis.along.y() < 0.0)) {
-    axis.along = -axis.along;
+  for (const Eigen::Vector2d& p : points) {
+    axis.origin += p / static_cast<double>(points.size());
   }
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Eigen::Vector2d& p : points) {
+    spread += (p - axis.origin) * (p - axis.origin).transpose();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  axis.along = {std::cos(angle), std::sin(angle)};  // never against x
   return axis;
 }
 
@@ -199,13 +191,17 @@ double height_at(double border, const std::vector<Eigen::Vector2d>& samples) {
   if (band.size() < kMinSamples) {
     return std::nan("");
   }
-  Eigen::MatrixX2d system(band.size(), 2);
-  Eigen::VectorXd heights(band.size());
-  for (std::size_t k = 0; k < band.size(); ++k) {
-    system.row(static_cast<Eigen::Index>(k)) << 1.0, band[k].x();
-    heights[static_cast<Eigen::Index>(k)] = band[k].y();
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& sample : band) {
+    mean += sample / static_cast<double>(band.size());
   }
-  return system.colPivHouseholderQr().solve(heights)[0];
+  double spread = 0.0;
+  double product = 0.0;
+  for (const Eigen::Vector2d& sample : band) {
+    spread += (sample.x() - mean.x()) * (sample.x() - mean.x());
+    product += (sample.x() - mean.x()) * (sample.y() - mean.y());
+  }
+  return mean.y() - product / std::max(spread, 1e-12) * mean.x();
 }
 
 /// NaN where road and sidewalk do not meet.
