@@ -15,6 +15,7 @@ import time
 from measuring import markdown_table, say
 
 HEADER_BYTES = 4 + 8  # seq and stamp; the frame follows with its length
+UPDATE_PERIOD_S = 0.5  # the mapper's default
 MARKER_BYTES_PER_FACET = 3 * 24  # float64 corners, colour per class
 
 
@@ -130,7 +131,8 @@ def play(arguments, parameters):
             with open(os.path.join(os.path.dirname(__file__), "../config/datasets/kitti.yaml"),
                       encoding="utf-8") as defaults:
                 text = defaults.read()
-            lines = "".join("  %s: %s\n" % tuple(p.split(":=", 1)) for p in parameters)
+            values = dict(p.split(":=", 1) for p in parameters)  # the last of a name counts
+            lines = "".join("  %s: %s\n" % value for value in values.items())
             file.write(text.replace("mapper:\n", "mapper:\n" + lines))
         recorder = processes.start("rosbag", "record", "-q", "-b", "0", "-O", arguments.mesh_bag,
                                    "/mapper/mesh")
@@ -150,6 +152,8 @@ def main():
     parser.add_argument("mesh_bag")
     parser.add_argument("--rate", type=float, default=1.0)
     arguments, parameters = parser.parse_known_args()
+    # Of the drive's time, so that a slow machine sees the updates of a fast one.
+    parameters.insert(0, "update_period_s:=%g" % (UPDATE_PERIOD_S / arguments.rate))
     play(arguments, parameters)
     import rosbag
     traffic = Traffic()
