@@ -84,7 +84,7 @@ class Processes:
 
     def start(self, *command):
         say("  " + " ".join(command))
-        self.all.append(subprocess.Popen(command, stdout=sys.stderr))
+        self.all.append(subprocess.Popen(command, stdout=subprocess.DEVNULL))
         return self.all[-1]
 
     def stop_last(self):

@@ -239,5 +239,5 @@ class MeshServerTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("mesh_server_test")
-    rostest.rosrun(PACKAGE, "mesh_server", MeshServerTest, sys.argv)
+    rospy.init_node("saved_mesh")
+    rostest.rosrun(PACKAGE, "saved_mesh", MeshServerTest, sys.argv)
