@@ -20,8 +20,7 @@ WAIT_S = 30.0
 SAMPLE_SPACING_M = 0.1
 MIN_UP = 0.7          # of the normal: the kerb's face is neither road nor sidewalk
 STATION_M = 2.0       # one height per side and so much road
-BAND_M = (0.2, 1.2)   # from the border: nearer is rounded, farther says little about it
-MAX_GAP_M = 1.0       # between road and sidewalk, where both touch the border
+BAND_M = (0.2, 1.5)   # from the border: nearer is rounded, farther says little about it
 MIN_SAMPLES = 20
 
 
@@ -76,10 +75,23 @@ def axis_of(road):
     return x, y, math.cos(angle), math.sin(angle)
 
 
-def height_at(border, samples):
-    """Of the line through the samples in the band beside the border; None with too few."""
+def border_of(road, sidewalk):
+    """The distance from the axis with the fewest samples on the wrong side of it."""
+    samples = sorted([(d, 1) for d, _ in road] + [(d, -1) for d, _ in sidewalk])
+    wrong = best = len(road)
+    border = samples[0][0]
+    for distance, step in samples:
+        wrong -= step
+        if wrong < best:
+            best, border = wrong, distance
+    return border
+
+
+def height_at(border, samples, side):
+    """Of the line through the samples in the band on one side (1: outside) of the border; None with
+    too few."""
     band = [(distance - border, z) for distance, z in samples
-            if BAND_M[0] <= abs(distance - border) <= BAND_M[1]]
+            if BAND_M[0] <= side * (distance - border) <= BAND_M[1]]
     if len(band) < MIN_SAMPLES:
         return None
     mean, height = (statistics.fmean(column) for column in zip(*band))
@@ -88,19 +100,12 @@ def height_at(border, samples):
     return height - slope * mean
 
 
-def quantile(samples, share):
-    return sorted(distance for distance, _ in samples)[int(share * (len(samples) - 1))]
-
-
 def kerb_height(road, sidewalk):
     """From (distance from the axis, height) of both; None where they do not meet."""
-    if min(len(road), len(sidewalk)) < MIN_SAMPLES:
+    if not road or not sidewalk:
         return None
-    road_end, sidewalk_begin = quantile(road, 0.98), quantile(sidewalk, 0.02)
-    if abs(sidewalk_begin - road_end) > MAX_GAP_M:
-        return None
-    border = 0.5 * (road_end + sidewalk_begin)
-    heights = height_at(border, sidewalk), height_at(border, road)
+    border = border_of(road, sidewalk)
+    heights = height_at(border, sidewalk, 1), height_at(border, road, -1)
     return None if None in heights else heights[0] - heights[1]
 
 

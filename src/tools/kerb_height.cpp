@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,8 +33,7 @@ constexpr double kSampleSpacingM = 0.1;
 constexpr double kMinUp = 0.7;       // of the normal: the kerb's face is neither road nor sidewalk
 constexpr double kStationM = 2.0;    // one height per side and so much road
 constexpr double kBandBeginM = 0.2;  // from the border: what lies nearer is rounded
-constexpr double kBandEndM = 1.2;    // from the border: what lies farther says little about it
-constexpr double kMaxGapM = 1.0;     // between road and sidewalk, where both touch the border
+constexpr double kBandEndM = 1.5;    // from the border: what lies farther says little about it
 constexpr std::size_t kMinSamples = 20;
 
 struct Side {
@@ -163,27 +163,41 @@ std::map<int, Station> stations_of(const TriangleMesh& mesh, const Axis& axis, L
   return stations;
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-double distance_quantile(const std::vector<Eigen::Vector2d>& samples, double share) {
-  std::vector<double> distances;
-  for (const Eigen::Vector2d& sample : samples) {
-    distances.push_back(sample.x());
+/// The distance from the axis with the fewest samples on the wrong side of it.
+double border_of(const Side& side) {
+  std::vector<std::pair<double, int>> samples;
+  for (const Eigen::Vector2d& sample : side.road) {
+    samples.emplace_back(sample.x(), 1);
   }
-  return quantile(std::move(distances), share);
+  for (const Eigen::Vector2d& sample : side.sidewalk) {
+    samples.emplace_back(sample.x(), -1);
+  }
+  std::sort(samples.begin(), samples.end());
+  auto wrong = static_cast<int>(side.road.size());
+  int best = wrong;
+  double border = samples.front().first;
+  for (const auto& [distance, step] : samples) {
+    wrong -= step;
+    if (wrong < best) {
+      best = wrong;
+      border = distance;
+    }
+  }
+  return border;
 }
 
-/// Height at the border of the line through the samples between kBandBeginM and kBandEndM from it;
-/// NaN with too few.
-double height_at(double border, const std::vector<Eigen::Vector2d>& samples) {
+/// Height at the border of the line through the samples between kBandBeginM and kBandEndM on one
+/// side of it (1: outside, -1: inside); NaN with too few.
+double height_at(double border, const std::vector<Eigen::Vector2d>& samples, double side) {
   std::vector<Eigen::Vector2d> band;
   for (const Eigen::Vector2d& sample : samples) {
-    const double distance = std::abs(sample.x() - border);
+    const double distance = side * (sample.x() - border);
     if (distance >= kBandBeginM && distance <= kBandEndM) {
       band.emplace_back(sample.x() - border, sample.y());
     }
@@ -206,16 +220,11 @@ double height_at(double border, const std::vector<Eigen::Vector2d>& samples) {
 
 /// NaN where road and sidewalk do not meet.
 double kerb_height(const Side& side) {
-  if (side.road.size() < kMinSamples || side.sidewalk.size() < kMinSamples) {
+  if (side.road.empty() || side.sidewalk.empty()) {
     return std::nan("");
   }
-  const double road_end = distance_quantile(side.road, 0.98);
-  const double sidewalk_begin = distance_quantile(side.sidewalk, 0.02);
-  if (std::abs(sidewalk_begin - road_end) > kMaxGapM) {
-    return std::nan("");
-  }
-  const double border = 0.5 * (road_end + sidewalk_begin);
-  return height_at(border, side.sidewalk) - height_at(border, side.road);
+  const double border = border_of(side);
+  return height_at(border, side.sidewalk, 1.0) - height_at(border, side.road, -1.0);
 }
 
 void print_heights(const std::map<int, Station>& stations) {
@@ -236,8 +245,7 @@ void print_heights(const std::map<int, Station>& stations) {
       std::printf("%s: no border between road and sidewalk\n", names[side]);
     } else {
       const std::size_t count = heights[side].size();
-      std::printf(
-          "%s: median %.3f m of %zu stations\n", names[side], quantile(heights[side], 0.5), count);
+      std::printf("%s: median %.3f m of %zu stations\n", names[side], median(heights[side]), count);
     }
   }
 }
