@@ -4,6 +4,7 @@
 """The inner part of scripts/measure_delta_traffic: plays a bag into stereo_points and mapper, records
 /mapper/mesh and counts its bytes."""
 import argparse
+import collections
 import contextlib
 import os
 import signal
@@ -32,11 +33,20 @@ def bytes_of_envelope(mesh):
             + 4 + 4 * len(mesh.removed_keys) + 4)
 
 
+def facets_of(chunk):
+    """What each facet carries, by its vertices' ids."""
+    corners = [chunk.vertex_ids[v] for v in chunk.triangles]
+    attributes = zip(chunk.labels, chunk.confidence, chunk.views)
+    return dict(zip(zip(corners[0::3], corners[1::3], corners[2::3]), attributes))
+
+
 class Traffic:
     """Follows the messages of one map."""
 
     def __init__(self):
         self.chunks = {}   # key: (bytes, facets)
+        self.content = {}  # key: facets_of the chunk
+        self.sent = collections.Counter()  # facets in deltas, by what is new about them
         self.updates = []  # (stamp, bytes sent, bytes of the whole mesh, facets)
 
     def add(self, mesh, size):
@@ -45,12 +55,24 @@ class Traffic:
         for k in range(0, len(keys), 3):
             self.chunks.pop(tuple(keys[k:k + 3]), None)
         for chunk in mesh.chunks:
+            self.count(chunk)
             self.chunks[tuple(chunk.key)] = (bytes_of_chunk(chunk), len(chunk.triangles) // 3)
         if mesh.full:  # what the recorder got as a newcomer
             return
         whole = bytes_of_envelope(mesh) - 4 * len(keys) + sum(b for b, _ in self.chunks.values())
         self.updates.append((mesh.header.stamp.to_sec(), size, whole,
                              sum(f for _, f in self.chunks.values())))
+
+
+    def count(self, chunk):
+        """Why the facets of a chunk are sent."""
+        now, key = facets_of(chunk), tuple(chunk.key)
+        before = self.content.get(key, {})
+        for corners, attributes in now.items():
+            known = before.get(corners)
+            self.sent["new" if known is None else
+                      "same" if known == attributes else "other attributes"] += 1
+        self.content[key] = now
 
 
 def table_of(updates):
@@ -163,6 +185,9 @@ def main():
     if not traffic.updates:
         sys.exit("no update came on /mapper/mesh")
     print(table_of(traffic.updates))
+    total = sum(traffic.sent.values())
+    print("\nFacets in the deltas: " + ", ".join(
+        "%s %.0f %%" % (what, 100.0 * count / total) for what, count in traffic.sent.items()))
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ LabelSet set_up(MeshServerNodeConfig* config, const ros::NodeHandle& private_nh)
 
 }  // namespace
 
-MeshServerNode::MeshServerNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
+MeshServerNode::MeshServerNode(const ros::NodeHandle& nh, ros::NodeHandle private_nh)
     : labels_(set_up(&config_, private_nh)),
       diagnostics_(nh, private_nh),
       tf_listener_(tf_buffer_, nh),

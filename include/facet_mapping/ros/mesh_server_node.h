@@ -25,7 +25,7 @@ class MeshServerNode {
   using Config = MeshServerNodeConfig;
 
   /// Throws ConfigError. A mesh that cannot be read is only a complaint: another may be loaded.
-  MeshServerNode(ros::NodeHandle nh, ros::NodeHandle private_nh);
+  MeshServerNode(const ros::NodeHandle& nh, ros::NodeHandle private_nh);
 
   void stop() {}
 
