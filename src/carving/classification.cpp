@@ -102,9 +102,14 @@ class CellCut {
   void add_cell(CellHandle cell) {
     constexpr double kMatterBias = 1.0;
     const CellInfo& info = cell->info();
+    double free = free_evidence(cell, config_.neighbour_share);
+    double matter = info.labels.sum();
+    // One scale for both, so that hundreds of rays of a good sensor are no tie with forty of
+    // another.
     const double cap = config_.evidence_cap * kRayWeight;
-    double free = std::min<double>(free_evidence(cell, config_.neighbour_share), cap);
-    double matter = std::min<double>(info.labels.sum(), cap) + kMatterBias;
+    const double scale = cap / std::max({cap, free, matter});
+    free *= scale;
+    matter = matter * scale + kMatterBias;
     for (int k = 0; k < 4; ++k) {
       const CellInfo& other = cell->neighbor(k)->info();
       if (other.in_region && info.order > other.order) {

@@ -254,15 +254,16 @@ void EvidenceField::trace_fresh(const std::vector<RayEnd>& ends) {
   }
 }
 
-bool EvidenceField::changes_class(Weight before, Weight after) const {
+bool EvidenceField::weighs_anew(const CellInfo& cell, Weight free_after) const {
+  // Above the cap more free space weighs no more, but what speaks for matter weighs less.
   const auto cap = static_cast<Weight>(config_.cap_rays * kRayWeight);
-  return std::min(before, cap) != std::min(after, cap);
+  return !cell.labels.empty() || std::min(cell.free, cap) != std::min(free_after, cap);
 }
 
 void EvidenceField::put(RayId id, const Hit& hit) {
   CellInfo& cell = hit.cell->info();
   if (hit.part == Hit::Part::kFront) {
-    cell.is_changed |= changes_class(cell.free, cell.free + hit.weight);
+    cell.is_changed |= weighs_anew(cell, cell.free + hit.weight);
     cell.free += hit.weight;
   } else if (hit.part == Hit::Part::kBehind) {
     cell.labels.add(store_.rays[id].label, hit.weight);
@@ -276,7 +277,7 @@ void EvidenceField::put(RayId id, const Hit& hit) {
 void EvidenceField::take(RayId id, const Hit& hit) {
   CellInfo& cell = hit.cell->info();
   if (hit.part == Hit::Part::kFront) {
-    cell.is_changed |= changes_class(cell.free, cell.free - hit.weight);
+    cell.is_changed |= weighs_anew(cell, cell.free - hit.weight);
     cell.free -= hit.weight;
   } else if (hit.part == Hit::Part::kBehind) {
     cell.labels.subtract(store_.rays[id].label, hit.weight);

@@ -37,7 +37,7 @@ class EvidenceField {
  public:
   struct Config {
     double behind_distance_m;  ///< how far behind a point its label is evidence
-    double cap_rays;           ///< more evidence than this changes no cell's class
+    double cap_rays;           ///< evidence that a cell is scaled down to
   };
 
   EvidenceField(RayStore* rays, const Config& config) : store_(*rays), config_(config) {}
@@ -69,7 +69,7 @@ class EvidenceField {
   }
   void put(RayId id, const Hit& hit);
   void take(RayId id, const Hit& hit);
-  bool changes_class(Weight before, Weight after) const;
+  bool weighs_anew(const CellInfo& cell, Weight free_after) const;
 
   RayStore& store_;
   Config config_;

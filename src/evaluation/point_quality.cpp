@@ -8,6 +8,7 @@
 
 #include "facet_mapping/evaluation/mesh_evaluation.h"
 #include "facet_mapping/evaluation/scan_depth.h"
+#include "facet_mapping/geometry/median.h"
 
 namespace facet_mapping {
 namespace {
@@ -57,13 +58,8 @@ double ratio(double part, std::size_t whole) {
   return whole > 0 ? part / static_cast<double>(whole) : NAN;
 }
 
-double median(std::vector<float> values) {
-  if (values.empty()) {
-    return NAN;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_or_nan(const std::vector<float>& values) {
+  return values.empty() ? NAN : median(values);
 }
 
 double mean(const std::vector<float>& values) {
@@ -159,14 +155,14 @@ PointScores PointQuality::scores() const {
   for (const double bound : options_.relative_bounds) {
     scores.within_relative.push_back(share_within(relative_, bound));
   }
-  scores.median_relative = median(relative_);
+  scores.median_relative = median_or_nan(relative_);
   scores.mean_relative = mean(relative_);
-  scores.median_error_m = median(absolute_);
+  scores.median_error_m = median_or_nan(absolute_);
   scores.mean_sigma_m = ratio(sums_.sigma_m, in_sigmas_.size());
   for (std::size_t k = 0; k < scores.within_sigma.size(); ++k) {
     scores.within_sigma[k] = share_within(in_sigmas_, static_cast<double>(k + 1));
   }
-  scores.sigma_factor = median(in_sigmas_) / kGaussianMedian;
+  scores.sigma_factor = median_or_nan(in_sigmas_) / kGaussianMedian;
   scores.density = ratio(static_cast<double>(sums_.covered_cells), sums_.truth_cells);
   scores.labelled_share = ratio(static_cast<double>(sums_.labelled), sums_.points);
   scores.label_points = sums_.label_points;

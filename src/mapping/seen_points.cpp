@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "facet_mapping/geometry/median.h"
 #include "facet_mapping/render/visibility.h"
 
 namespace facet_mapping {
@@ -56,9 +57,7 @@ double median_edge(const TriangleMesh& mesh) {
   if (edges.empty()) {
     return 0.0;
   }
-  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-  std::nth_element(edges.begin(), middle, edges.end());
-  return *middle;
+  return median(std::move(edges));
 }
 
 }  // namespace facet_mapping

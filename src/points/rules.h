@@ -6,14 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <opencv2/core.hpp>
-
 namespace facet_mapping::detail {
-
-/// For clauses about sizes that do not fit.
-inline std::string size_text(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
 
 /// Gathers one clause per broken rule.
 class Rules {

@@ -7,6 +7,8 @@
 
 #include "rules.h"
 
+#include "facet_mapping/geometry/size_text.h"
+
 namespace facet_mapping::detail {
 void check_stereo_config(const StereoConfig& config) {
   Rules rules;

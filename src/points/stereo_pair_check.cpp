@@ -11,6 +11,8 @@
 #include "stereo_checks.h"
 #include <opencv2/imgproc.hpp>
 
+#include "facet_mapping/geometry/median.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -47,13 +49,8 @@ double contrast(const cv::Mat& image) {
   return deviation[0];
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_or_zero(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : median(values);
 }
 
 /// Offset of a parabola's peak through three neighbours, in [-0.5, 0.5].
@@ -131,8 +128,8 @@ void match_corners(const cv::Mat& left,
   report->swapped_share =
       row_errors.empty() ? 0.0
                          : static_cast<double>(swapped) / static_cast<double>(row_errors.size());
-  report->row_error_px = median(row_errors);
-  report->brightness_ratio = brightness.empty() ? 1.0 : median(brightness);
+  report->row_error_px = median_or_zero(row_errors);
+  report->brightness_ratio = brightness.empty() ? 1.0 : median_or_zero(brightness);
 }
 
 void set_problem(StereoPairReport* report, StereoPairProblem problem, const std::string& sentence) {

@@ -15,6 +15,8 @@
 #include "track_checks.h"
 #include <opencv2/imgproc.hpp>
 
+#include "facet_mapping/geometry/median.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -44,9 +46,7 @@ double median_depth(const cv::Mat& inverse_depth) {
   if (values.empty()) {
     return std::nan("");
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.0 / *middle;
+  return 1.0 / median(std::move(values));
 }
 
 }  // namespace

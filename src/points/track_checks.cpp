@@ -7,6 +7,8 @@
 
 #include "rules.h"
 
+#include "facet_mapping/geometry/size_text.h"
+
 namespace facet_mapping::detail {
 namespace {
 
@@ -51,8 +53,8 @@ void check_track_image(const cv::Mat& gray, const PinholeCamera& camera, const c
   rules.require(!gray.empty() && gray.type() == CV_8UC1, "the image must be 8-bit grey");
   rules.require(camera.is_valid(), "the camera has no valid intrinsics");
   rules.require(gray.cols == camera.width && gray.rows == camera.height,
-                "the camera is of size " + size_text({camera.width, camera.height}) +
-                    " but the image of size " + size_text(gray.size()));
+                "the camera is of size " + size_text(camera) + " but the image of size " +
+                    size_text(gray.size()));
   rules.require(labels.empty() || labels.type() == CV_16UC1,
                 "the label image must hold 16-bit class ids");
   rules.require(labels.empty() || labels.size() == gray.size(),

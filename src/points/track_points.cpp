@@ -16,6 +16,8 @@
 #include "track_triangulation.h"
 #include <tbb/parallel_for.h>
 
+#include "facet_mapping/geometry/median.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -34,12 +36,6 @@ constexpr double kMinFoundShare = 0.2;
 constexpr std::size_t kMinStillMatches = 10;
 /// The image is used after this much motion in it, whatever the parallax (share of the width).
 constexpr double kMaxTurn = 0.05;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Label label_at(const cv::Mat& labels, const Eigen::Vector2d& pixel) {
   if (labels.empty()) {

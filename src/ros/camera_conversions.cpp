@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "facet_mapping/geometry/size_text.h"
 #include "facet_mapping/ros/image_conversions.h"
 
 namespace facet_mapping {
@@ -11,10 +12,6 @@ namespace {
 
 std::invalid_argument problem(const std::string& topic, const std::string& sentence) {
   return std::invalid_argument("camera_info of '" + topic + "': " + sentence);
-}
-
-std::string size_text(double width, double height) {
-  return std::to_string(static_cast<int>(width)) + "x" + std::to_string(static_cast<int>(height));
 }
 
 bool is_distorted(const sensor_msgs::CameraInfo& info) {
@@ -42,9 +39,8 @@ void check_size(const sensor_msgs::CameraInfo& info,
   if (given && (static_cast<int>(info.width) != size.width ||
                 static_cast<int>(info.height) != size.height)) {
     throw problem(topic,
-                  "it describes " + size_text(info.width, info.height) + " pixels, but the image " +
-                      "has " + size_text(size.width, size.height) +
-                      "; calibrate at the size that is published");
+                  "it describes " + size_text(info) + " pixels, but the image " + "has " +
+                      size_text(size) + "; calibrate at the size that is published");
   }
 }
 

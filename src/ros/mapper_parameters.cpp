@@ -19,7 +19,8 @@ void add_carving(ParameterTable* table, CarvingConfig* c) {
   table->add("carving/evidence_cap",
              &c->evidence_cap,
              "rays",
-             "graph_cut: most evidence that a cell can have",
+             "graph_cut: where a cell has more evidence of free space or matter, both are scaled "
+             "down to it",
              kPositive);
   table->add(
       "carving/neighbour_share",

@@ -8,6 +8,7 @@
 
 #include "seen_classes.h"
 
+#include "facet_mapping/geometry/size_text.h"
 #include "facet_mapping/ros/image_conversions.h"
 
 namespace facet_mapping {
@@ -22,10 +23,6 @@ constexpr double kPollPeriodS = 0.1;
 constexpr double kConfidenceShare = 0.5;
 /// Shapes may differ by what whole pixels make of them.
 constexpr double kShapeTolerance = 0.02;
-
-std::string size_text(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
 
 std::vector<StampSync::Part> parts_of(const SegmentationInput& config) {
   const bool with_confidence = config.min_confidence > 0.0;

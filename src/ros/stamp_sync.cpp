@@ -7,7 +7,7 @@
 namespace facet_mapping {
 
 StampSync::StampSync(std::vector<Part> parts, double cache_s, std::size_t max_frames)
-    : parts_(std::move(parts)), cache_s_(cache_s), max_frames_(max_frames) {
+    : parts_(std::move(parts)), last_(parts_.size()), cache_s_(cache_s), max_frames_(max_frames) {
   counts_.missing.assign(parts_.size(), 0);
 }
 
@@ -15,6 +15,7 @@ std::vector<StampedParts> StampSync::add(std::size_t part,
                                          const ros::Time& stamp,
                                          boost::shared_ptr<const void> message,
                                          const ros::WallTime& now) {
+  last_[part] = stamp;
   if (done_.count(stamp) > 0) {
     ++counts_.late;
     return poll(now);
@@ -38,7 +39,7 @@ std::vector<StampedParts> StampSync::poll(const ros::WallTime& now) {
     Frame& frame = entry->second;
     const bool too_old = (now - frame.first).toSec() > cache_s_ || frames_.size() > max_frames_;
     const bool complete = !frame.complete.isZero();
-    if (is_ready(frame, now) || (too_old && complete)) {
+    if (is_ready(entry->first, frame, now) || (too_old && complete)) {
       count_missing(frame);
       ready.push_back({entry->first, std::move(frame.parts)});
     } else if (too_old) {
@@ -66,12 +67,15 @@ bool StampSync::has_required(const Frame& frame) const {
   return true;
 }
 
-bool StampSync::is_ready(const Frame& frame, const ros::WallTime& now) const {
+bool StampSync::is_ready(const ros::Time& stamp,
+                         const Frame& frame,
+                         const ros::WallTime& now) const {
   if (frame.complete.isZero()) {
     return false;
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    if (frame.parts[k] == nullptr && (now - frame.complete).toSec() < parts_[k].wait_s) {
+    const bool can_come = frame.parts[k] == nullptr && last_[k] < stamp;
+    if (can_come && (now - frame.complete).toSec() < parts_[k].wait_s) {
       return false;
     }
   }
@@ -87,6 +91,7 @@ void StampSync::count_missing(const Frame& frame) {
 void StampSync::clear() {
   frames_.clear();
   done_.clear();
+  last_.assign(parts_.size(), ros::Time());
 }
 
 }  // namespace facet_mapping

@@ -11,6 +11,7 @@
 #include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "facet_mapping/geometry/size_text.h"
 #include "facet_mapping/labels/label_image.h"
 
 namespace facet_mapping {
@@ -44,10 +45,6 @@ void check_config(const NetworkConfig& config) {
 int scaled(int length, double scale) {
   const int step = length % kStride == 0 ? kStride : 1;
   return std::max(1, static_cast<int>(std::lround(length * scale / step))) * step;
-}
-
-std::string size_text(const cv::Size& size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
 std::string shape_text(const cv::Mat& output) {

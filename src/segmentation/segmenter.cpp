@@ -6,16 +6,9 @@
 #include <string>
 
 #include "facet_mapping/geometry/label.h"
+#include "facet_mapping/geometry/size_text.h"
 
 namespace facet_mapping {
-namespace {
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
-}  // namespace
-
 void check_color_image(const cv::Mat& bgr) {
   if (bgr.empty()) {
     throw std::invalid_argument("The image to segment is empty; check its source");

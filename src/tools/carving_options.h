@@ -32,7 +32,7 @@ inline const std::vector<CarvingOption>& carving_options() {
       {"--evidence-cap",
        &CarvingConfig::evidence_cap,
        0.0,
-       "Graph cut: most evidence that a cell can have, rays"},
+       "Graph cut: where a cell has more evidence, rays, it is scaled down to this"},
       {"--free-space-threshold",
        &CarvingConfig::free_space_threshold,
        0.0,

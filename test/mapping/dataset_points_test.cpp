@@ -106,6 +106,30 @@ TEST(DatasetPoints, TracksOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
   }
 }
 
+TEST(DatasetPoints, SweptPointsOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
+  FACET_MAPPING_DATA_OR_SKIP(folder, "kitti_drive_0009");
+  const Dataset dataset = read_dataset(folder);
+  DatasetPointsConfig config;
+  config.stereo = false;
+  config.sweep = true;
+  config.sweep_config.sweep_width_px = 400;
+  DatasetPoints points(dataset, {}, config);
+  std::vector<SensorPoints> all;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::vector<SensorPoints> done = points.follow(k);
+    all.insert(all.end(), done.begin(), done.end());
+  }
+  const std::vector<SensorPoints> rest = points.finish();
+  EXPECT_FALSE(rest.empty());
+  all.insert(all.end(), rest.begin(), rest.end());
+  ASSERT_EQ(all.size(), 4U);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_EQ(all[k].sensor, "sweep");
+    EXPECT_EQ(all[k].frame.stamp, dataset.frames[k].stamp);
+    EXPECT_GT(all[k].frame.points.size(), 100U);
+  }
+}
+
 TEST(DatasetPoints, FollowGivesNothingUnlessTracksAreWanted) {
   const testing::TempFolder folder;
   testing::make_plain(folder.path());

@@ -74,6 +74,16 @@ class BadInputTest : public testing::Test {
         diagnostics_->rises("stereo_points", "problem: " + reason, [&] { publish_frame(change); }));
   }
 
+  /// Of ten pairs one is looked at for what is wrong with it, so ten are changed.
+  static void expect_pair_problem(const std::string& reason,
+                                  const std::function<void(CorridorCar::Frame&)>& change) {
+    EXPECT_TRUE(diagnostics_->rises("stereo_points", "problem: " + reason, [&] {
+      for (int k = 0; k < 10; ++k) {
+        publish_frame(change);
+      }
+    })) << reason;
+  }
+
   template <typename Change>
   static void expect_mapper_problem(const std::string& reason, const Change& change) {
     EXPECT_TRUE(diagnostics_->rises("mapper", "problem: " + reason, [&] {
@@ -132,6 +142,24 @@ TEST_F(BadInputTest, CameraInfoWithoutIntrinsicsOrSwapped) {
     frame.left_info.P.fill(0.0);
   });
   expect_stereo_problem("unusable pair", [](auto& frame) { frame.right_info.P[3] *= -1.0; });
+}
+
+TEST_F(BadInputTest, PairsThatAreNoRectifiedPair) {
+  expect_pair_problem("left and right swapped",
+                      [](auto& frame) { std::swap(frame.left.data, frame.right.data); });
+  expect_pair_problem("unrectified pair", [](auto& frame) {
+    std::rotate(frame.right.data.begin(),
+                frame.right.data.begin() + 4 * frame.right.step,
+                frame.right.data.end());
+  });
+  expect_pair_problem("exposures differ", [](auto& frame) {
+    for (std::uint8_t& value : frame.right.data) {
+      value /= 2;
+    }
+  });
+  expect_pair_problem("blank image", [](auto& frame) {
+    std::fill(frame.right.data.begin(), frame.right.data.end(), std::uint8_t{90});
+  });
 }
 
 TEST_F(BadInputTest, UnusableSegmentation) {

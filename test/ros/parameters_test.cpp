@@ -3,10 +3,12 @@
 #include "facet_mapping/ros/parameters.h"
 
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include "facet_mapping/ros/lidar_points_node_config.h"
 #include "facet_mapping/ros/node_config.h"
 
 namespace facet_mapping {
@@ -150,6 +152,9 @@ void expect_every_default_in_range() {
 
 TEST(NodeParameters, DefaultsAreValid) {
   expect_every_default_in_range<StereoPointsNodeConfig>();
+  expect_every_default_in_range<TrackPointsNodeConfig>();
+  expect_every_default_in_range<SweepPointsNodeConfig>();
+  expect_every_default_in_range<LidarPointsNodeConfig>();
   expect_every_default_in_range<MapperNodeConfig>();
   expect_every_default_in_range<RefinerNodeConfig>();
 }
@@ -179,20 +184,26 @@ void expect_defaults(const std::string& file) {
 
 TEST(NodeParameters, ShippedFilesStateTheDefaults) {
   expect_defaults<StereoPointsNodeConfig>("stereo_points.yaml");
+  expect_defaults<TrackPointsNodeConfig>("track_points.yaml");
+  expect_defaults<SweepPointsNodeConfig>("sweep_points.yaml");
+  expect_defaults<LidarPointsNodeConfig>("lidar_points.yaml");
   expect_defaults<MapperNodeConfig>("mapper.yaml");
   expect_defaults<RefinerNodeConfig>("refiner.yaml");
 }
 
 TEST(NodeParameters, DatasetOverlaysAreAccepted) {
+  const std::map<std::string, std::string (*)(const YAML::Node&)> nodes{
+      {"stereo_points", assign_node<StereoPointsNodeConfig>},
+      {"track_points", assign_node<TrackPointsNodeConfig>},
+      {"sweep_points", assign_node<SweepPointsNodeConfig>},
+      {"lidar_points", assign_node<LidarPointsNodeConfig>},
+      {"mapper", assign_node<MapperNodeConfig>},
+      {"refiner", assign_node<RefinerNodeConfig>}};
   for (const auto& entry : std::filesystem::directory_iterator(config_folder() + "datasets")) {
     for (const auto& node : YAML::LoadFile(entry.path().string())) {
-      const auto name = node.first.as<std::string>();
-      const std::string problems = name == "stereo_points"
-                                       ? assign_node<StereoPointsNodeConfig>(node.second)
-                                   : name == "mapper"  ? assign_node<MapperNodeConfig>(node.second)
-                                   : name == "refiner" ? assign_node<RefinerNodeConfig>(node.second)
-                                                       : "no such node: " + name;
-      EXPECT_EQ(problems, "") << entry.path();
+      const auto found = nodes.find(node.first.as<std::string>());
+      ASSERT_NE(found, nodes.end()) << entry.path() << ": no such node: " << node.first;
+      EXPECT_EQ(found->second(node.second), "") << entry.path();
     }
   }
 }

@@ -74,6 +74,18 @@ TEST_F(StampSyncTest, FramesComeInOrderOfTheirStamps) {
   EXPECT_LT(ready[0].stamp, ready[1].stamp);
 }
 
+TEST_F(StampSyncTest, APartOfALaterStampEndsTheWaitForAnEarlierOne) {
+  add(kLeft, 10.0, 1.0);
+  add(kRight, 10.0, 1.0);
+  add(kLeft, 11.0, 1.1);
+  EXPECT_TRUE(add(kRight, 11.0, 1.1).empty());
+  const auto ready = add(kSegmentation, 11.0, 1.2);  // a network that dropped the first image
+  ASSERT_EQ(ready.size(), 2U);
+  EXPECT_EQ(ready[0].stamp, ros::Time(10.0));
+  EXPECT_EQ(ready[0].parts[kSegmentation], nullptr);
+  EXPECT_NE(ready[1].parts[kSegmentation], nullptr);
+}
+
 TEST_F(StampSyncTest, TheOldestIsDroppedWhenFull) {
   for (int k = 0; k < 4; ++k) {
     add(kLeft, 10.0 + k, 1.0);

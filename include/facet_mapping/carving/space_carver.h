@@ -27,7 +27,8 @@ enum class Extraction {
 struct CarvingConfig {
   Extraction extraction = Extraction::kGraphCut;  ///< how cells are called free
   double surface_quality_weight = 1.0;  ///< graph cut: cost of a badly shaped facet, in rays
-  double evidence_cap = 32.0;           ///< graph cut: most evidence that a cell can have, in rays
+  double evidence_cap = 32.0;  ///< graph cut: a cell with more evidence, in rays, of free space or
+                               ///< of matter has both scaled down to this
   double neighbour_share = 0.0;  ///< of its neighbours' mean free-space evidence that a cell gets
                                  ///< too (inverse cone, Litvinov & Lhuillier 2014), 0 .. 1
   double free_space_threshold = 1.0;  ///< least free-space evidence of a free cell, in rays

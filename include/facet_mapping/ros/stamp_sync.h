@@ -26,12 +26,14 @@ struct StampedParts {
   }
 };
 
+/// Frames go on in the order of their stamps, as far as each topic keeps to it: an optional part
+/// that has come for a later stamp is not waited for any more (a slow network drops images).
 class StampSync {
  public:
   struct Part {
     std::string name;
     bool required = true;
-    double wait_s = 0.0;  ///< an optional part: how long the others wait for it
+    double wait_s = 0.0;  ///< an optional part: how long the others wait for it at most
   };
   /// What became of frames that never were complete.
   struct Counts {
@@ -64,11 +66,12 @@ class StampSync {
     ros::WallTime complete;  ///< arrival of the last required part, zero before
   };
 
-  bool is_ready(const Frame& frame, const ros::WallTime& now) const;
+  bool is_ready(const ros::Time& stamp, const Frame& frame, const ros::WallTime& now) const;
   bool has_required(const Frame& frame) const;
   void count_missing(const Frame& frame);
 
   std::vector<Part> parts_;
+  std::vector<ros::Time> last_;  // stamp of each part's last message
   double cache_s_;
   std::size_t max_frames_;
   std::map<ros::Time, Frame> frames_;
