@@ -21,6 +21,7 @@
 #include <facet_mapping/Refine.h>
 #include <ros/ros.h>
 
+#include "facet_mapping/geometry/median.h"
 #include "facet_mapping/geometry/mesh.h"
 #include "facet_mapping/ros/mesh_conversions.h"
 
@@ -161,12 +162,6 @@ std::map<int, Station> stations_of(const TriangleMesh& mesh, const Axis& axis, L
     });
   }
   return stations;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The distance from the axis with the fewest samples on the wrong side of it.
