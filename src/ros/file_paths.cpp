@@ -75,7 +75,7 @@ std::string mesh_path(const std::string& path) {
     expanded += ".ply";
   }
   if (expanded.extension() != ".ply") {
-    throw std::invalid_argument("'" + expanded.string() + "': meshes are written as .ply only");
+    throw std::invalid_argument("'" + expanded.string() + "': meshes are .ply files only");
   }
   return expanded.string();
 }

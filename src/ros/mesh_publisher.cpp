@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::uint32_t kMeshQueueSize = 100;  // deltas, which must not be lost
 constexpr std::uint32_t kLatestOnly = 1;
-constexpr std::uint32_t kPaletteVersion = 1;  // the class list of a node never changes
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
@@ -41,7 +40,12 @@ MeshPublisher::MeshPublisher(ros::NodeHandle private_nh,
       archive_(archive_folder, on_problem_) {
   new_map_id();
   advertise(std::move(private_nh));
-  ClassPalette palette = palette_message(labels_, label_source, kPaletteVersion);
+  const Lock lock(mutex_);
+  publish_palette_locked(label_source);
+}
+
+void MeshPublisher::publish_palette_locked(const std::string& label_source) {
+  ClassPalette palette = palette_message(labels_, label_source, ++palette_version_);
   palette.header.stamp = ros::Time::now();
   palette_pub_.publish(palette);
 }
@@ -78,7 +82,7 @@ LabeledMesh MeshPublisher::envelope() const {
   message.header = header();
   message.map_id = map_id_;
   message.sequence = sequence_;
-  message.palette_version = kPaletteVersion;
+  message.palette_version = palette_version_;
   return message;
 }
 
@@ -118,17 +122,14 @@ LabeledMesh MeshPublisher::delta_message(const ChunkDelta& delta) const {
   return message;
 }
 
-void MeshPublisher::publish_displays_locked() {
+void MeshPublisher::publish_displays_locked(visualization_msgs::MarkerArray gone) {
   if (marker_pub_.getNumSubscribers() == 0 && points_pub_.getNumSubscribers() == 0) {
     return;
   }
   const MeshStatePtr state = state_for_display_locked();
   if (marker_pub_.getNumSubscribers() > 0) {
-    const auto markers = markers_from_mesh(state->mesh,
-                                           labels_,
-                                           header(),
-                                           static_cast<std::size_t>(config_.marker_max_triangles),
-                                           &shown_);
+    visualization_msgs::MarkerArray markers = markers_of_locked(state->mesh);
+    markers.markers.insert(markers.markers.begin(), gone.markers.begin(), gone.markers.end());
     if (!markers.markers.empty()) {
       marker_pub_.publish(markers);
     }
@@ -138,8 +139,12 @@ void MeshPublisher::publish_displays_locked() {
   }
 }
 
-void MeshPublisher::reset(const ros::Time& stamp) {
-  const Lock lock(mutex_);
+visualization_msgs::MarkerArray MeshPublisher::markers_of_locked(const TriangleMesh& mesh) {
+  return markers_from_mesh(
+      mesh, labels_, header(), static_cast<std::size_t>(config_.marker_max_triangles), &shown_);
+}
+
+void MeshPublisher::forget_locked(const ros::Time& stamp) {
   state_.reset();
   stamp_ = stamp;
   chunks_.clear();
@@ -147,6 +152,30 @@ void MeshPublisher::reset(const ros::Time& stamp) {
   archive_.clear();
   in_chunks_ = false;
   new_map_id();
+}
+
+void MeshPublisher::replace(MeshStatePtr state,
+                            const std::string& frame_id,
+                            const LabelSet& labels,
+                            const std::string& label_source) {
+  const Lock lock(mutex_);
+  const visualization_msgs::MarkerArray gone = markers_of_locked({});  // under their old names
+  forget_locked(state->stamp);
+  frame_id_ = frame_id;
+  labels_ = labels;
+  publish_palette_locked(label_source);
+  state_ = std::move(state);
+  chunks_stale_ = true;
+  ++sequence_;
+  if (mesh_pub_.getNumSubscribers() > 0) {
+    mesh_pub_.publish(full_message_locked());
+  }
+  publish_displays_locked(gone);
+}
+
+void MeshPublisher::reset(const ros::Time& stamp) {
+  const Lock lock(mutex_);
+  forget_locked(stamp);
   LabeledMesh message = envelope();
   message.full = 1;
   mesh_pub_.publish(message);
@@ -267,6 +296,16 @@ std::uint32_t MeshPublisher::sequence() const {
   return sequence_;
 }
 
+std::string MeshPublisher::frame_id() const {
+  const Lock lock(mutex_);
+  return frame_id_;
+}
+
+LabelSet MeshPublisher::labels() const {
+  const Lock lock(mutex_);
+  return labels_;
+}
+
 std::string MeshPublisher::map_id() const {
   const Lock lock(mutex_);
   return map_id_;
@@ -305,12 +344,13 @@ LabeledMesh MeshPublisher::detached_message(const TriangleMesh& mesh,
                                             const ros::Time& stamp) const {
   ChunkedMesh chunks(config_.chunk_size_m);
   chunks.update(mesh);
+  const Lock lock(mutex_);
   LabeledMesh message;
   message.header.frame_id = frame_id_;
   message.header.stamp = stamp;
-  message.sequence = sequence();
+  message.sequence = sequence_;
   message.full = 1;
-  message.palette_version = kPaletteVersion;
+  message.palette_version = palette_version_;
   for (const auto& [key, chunk] : chunks.chunks()) {
     message.chunks.push_back(chunk_to_message(chunk));
   }
@@ -325,14 +365,10 @@ void MeshPublisher::on_mesh_subscriber(const ros::SingleSubscriberPublisher& sub
 void MeshPublisher::on_marker_subscriber(const ros::SingleSubscriberPublisher& subscriber) {
   const Lock lock(mutex_);
   const MeshStatePtr state = state_for_display_locked();
-  if (state->mesh.empty()) {
-    return;
+  const visualization_msgs::MarkerArray markers = markers_of_locked(state->mesh);
+  if (!markers.markers.empty()) {
+    subscriber.publish(markers);
   }
-  subscriber.publish(markers_from_mesh(state->mesh,
-                                       labels_,
-                                       header(),
-                                       static_cast<std::size_t>(config_.marker_max_triangles),
-                                       &shown_));
 }
 
 void MeshPublisher::on_points_subscriber(const ros::SingleSubscriberPublisher& subscriber) {

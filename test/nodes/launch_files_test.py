@@ -19,14 +19,18 @@ import rospkg
 import rostest
 
 PACKAGE = "facet_mapping"
-NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "segmenter", "mapper", "refiner"]
+NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "segmenter", "mapper",
+         "refiner", "mesh_server"]
+# Arguments without default.
+NEEDED = {"inspect.launch": ["mesh:=/data/street.ply"]}
 FOLDER = rospkg.RosPack().get_path(PACKAGE)
 LAUNCH_FILES = sorted(glob.glob(os.path.join(FOLDER, "launch", "*.launch")))
 
 
 def load(path, *arguments):
+    arguments = NEEDED.get(os.path.basename(path), []) + list(arguments)
     config = roslaunch.config.ROSLaunchConfig()
-    roslaunch.xmlloader.XmlLoader().load(path, config, argv=list(arguments), verbose=False)
+    roslaunch.xmlloader.XmlLoader().load(path, config, argv=arguments, verbose=False)
     return config
 
 
@@ -43,7 +47,7 @@ def documented(node):
 class LaunchFilesTest(unittest.TestCase):
     def test_there_are_launch_files(self):
         names = [os.path.basename(path) for path in LAUNCH_FILES]
-        for name in ["custom.launch", "demo.launch", "kitti.launch"]:
+        for name in ["custom.launch", "demo.launch", "inspect.launch", "kitti.launch"]:
             self.assertIn(name, names)
 
     def test_every_argument_is_documented(self):
@@ -80,6 +84,13 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(load(kitti).params["/mapper/point_topics"].value,
                          ["stereo_points/points"])
         self.assertTrue(load(kitti).params["/use_sim_time"].value)
+
+    def test_inspect_finds_the_mesh_where_it_was_called(self):
+        inspect = os.path.join(FOLDER, "launch", "inspect.launch")
+        self.assertEqual(load(inspect).params["/mesh_server/mesh"].value, "/data/street.ply")
+        relative = load(inspect, "mesh:=street.ply").params["/mesh_server/mesh"].value
+        self.assertEqual(relative, os.environ.get("PWD", "") + "/street.ply")
+        self.assertEqual([n.name for n in load(inspect, "rviz:=false").nodes], ["mesh_server"])
 
     def test_arguments_that_mean_nothing_are_refused(self):
         custom = os.path.join(FOLDER, "launch", "custom.launch")

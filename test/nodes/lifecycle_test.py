@@ -14,10 +14,11 @@ import rosservice
 import rostest
 
 PACKAGE = "facet_mapping"
-NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "mapper", "refiner"]
+NODES = ["stereo_points", "track_points", "sweep_points", "lidar_points", "mapper", "refiner",
+         "mesh_server"]
 NODELETS = {"stereo_points": "StereoPoints", "track_points": "TrackPoints",
             "sweep_points": "SweepPoints", "lidar_points": "LidarPoints",
-            "mapper": "Mapper", "refiner": "Refiner"}
+            "mapper": "Mapper", "refiner": "Refiner", "mesh_server": "MeshServer"}
 # Far more than a node needs, so that a slow machine does not fail the test.
 TIMEOUT_S = 30
 
@@ -66,7 +67,9 @@ class LifecycleTest(unittest.TestCase):
         for node in NODES:
             table = subprocess.run([program(node), "--parameters"], check=True, text=True,
                                    capture_output=True, timeout=TIMEOUT_S).stdout
-            self.assertIn("| `label_file` | string | `cityscapes` |", table)
+            # A mesh brings its own class list.
+            default = "" if node == "mesh_server" else "cityscapes"
+            self.assertRegex(table, r"\| `label_file` \| string \| `?%s`? \|" % default)
 
     def test_nodelets_load_into_one_manager(self):
         commands = [["manager", "__name:=manager"]]
@@ -77,6 +80,7 @@ class LifecycleTest(unittest.TestCase):
         try:
             wait_for_service("/let_mapper/get_mesh")
             wait_for_service("/let_refiner/refine")
+            wait_for_service("/let_mesh_server/load_mesh")
             topics = lambda: [t for t, _ in rospy.get_published_topics()]
             deadline = rospy.get_time() + TIMEOUT_S
             while "/points" not in topics() and rospy.get_time() < deadline:

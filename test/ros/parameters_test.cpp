@@ -9,6 +9,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "facet_mapping/ros/lidar_points_node_config.h"
+#include "facet_mapping/ros/mesh_server_node_config.h"
 #include "facet_mapping/ros/node_config.h"
 
 namespace facet_mapping {
@@ -157,6 +158,7 @@ TEST(NodeParameters, DefaultsAreValid) {
   expect_every_default_in_range<LidarPointsNodeConfig>();
   expect_every_default_in_range<MapperNodeConfig>();
   expect_every_default_in_range<RefinerNodeConfig>();
+  expect_every_default_in_range<MeshServerNodeConfig>();
 }
 
 std::string config_folder() {
@@ -189,6 +191,7 @@ TEST(NodeParameters, ShippedFilesStateTheDefaults) {
   expect_defaults<LidarPointsNodeConfig>("lidar_points.yaml");
   expect_defaults<MapperNodeConfig>("mapper.yaml");
   expect_defaults<RefinerNodeConfig>("refiner.yaml");
+  expect_defaults<MeshServerNodeConfig>("mesh_server.yaml");
 }
 
 TEST(NodeParameters, DatasetOverlaysAreAccepted) {

@@ -8,7 +8,7 @@
 
 namespace facet_mapping {
 
-/// Absolute path of a mesh file to write: `~` is the home folder, a relative path starts at
+/// Absolute path of a mesh file: `~` is the home folder, a relative path starts at
 /// ROS_HOME (default ~/.ros), `.ply` is added where there is no extension. Throws
 /// std::invalid_argument on an empty path, a folder or another extension.
 std::string mesh_path(const std::string& path);

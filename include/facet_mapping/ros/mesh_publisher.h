@@ -14,6 +14,7 @@
 
 #include <facet_mapping/LabeledMesh.h>
 #include <ros/node_handle.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "facet_mapping/geometry/mesh.h"
 #include "facet_mapping/labels/label_set.h"
@@ -60,6 +61,12 @@ class MeshPublisher {
   void publish(MeshStatePtr state);
   /// Drops the mesh and begins a new map_id: subscribers get an empty full mesh.
   void reset(const ros::Time& stamp);
+  /// Shows another mesh, whose classes and frame may be others: the palette is published anew if
+  /// they are, a new map_id begins, and all subscribers get the full mesh.
+  void replace(MeshStatePtr state,
+               const std::string& frame_id,
+               const LabelSet& labels,
+               const std::string& label_source);
 
   /// The present state, frozen part included; null before the first and after a reset.
   /// Throws std::runtime_error if a part cannot be read back from the archive.
@@ -74,8 +81,8 @@ class MeshPublisher {
   std::size_t bytes() const;  ///< of memory held
   std::uint32_t sequence() const;
   std::string map_id() const;
-  const std::string& frame_id() const { return frame_id_; }
-  const LabelSet& labels() const { return labels_; }
+  std::string frame_id() const;
+  LabelSet labels() const;
 
   /// The whole present mesh, as a new subscriber gets it.
   LabeledMesh full_message();
@@ -98,7 +105,11 @@ class MeshPublisher {
   void report(const std::string& problem) const;
   MeshStatePtr state_for_display_locked() const;
   void refresh_chunks_locked();
-  void publish_displays_locked();
+  /// `gone`: markers to delete, in the same message since only the latest is kept.
+  void publish_displays_locked(visualization_msgs::MarkerArray gone = {});
+  visualization_msgs::MarkerArray markers_of_locked(const TriangleMesh& mesh);
+  void publish_palette_locked(const std::string& label_source);
+  void forget_locked(const ros::Time& stamp);
   void new_map_id();
 
   std::string frame_id_;
@@ -113,6 +124,7 @@ class MeshPublisher {
   bool chunks_stale_ = false;  // chunks_ is older than state_
   std::string map_id_;
   std::uint32_t sequence_ = 0;
+  std::uint32_t palette_version_ = 0;
   ros::Time stamp_;
   std::set<Label> shown_;
   ros::Publisher mesh_pub_;
