@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: facet_mapping contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """LabeledMesh messages of simple made-up meshes, for looking at them in rviz."""
-import numpy
 from facet_mapping.msg import ClassPalette, LabeledMesh, LabeledMeshChunk, PaletteClass
 from geometry_msgs.msg import Point32
 
@@ -21,17 +20,20 @@ def palette():
 
 def field(key, origin, cells, size_m, label, confidence=255, views=10, height=None):
     """A square of 2 * cells^2 facets; `height(x, y)` of its vertices, in metres."""
-    steps = numpy.linspace(0.0, size_m, cells + 1)
-    x, y = (grid.ravel() for grid in numpy.meshgrid(steps, steps))
-    z = height(x + origin[0], y + origin[1]) if height else numpy.zeros_like(x)
-    corner = (numpy.arange(cells)[:, None] * (cells + 1) + numpy.arange(cells)[None, :]).ravel()
-    right, up = corner + 1, corner + cells + 1
-    facets = numpy.stack([corner, right, up + 1, corner, up + 1, up], axis=1)
+    step = size_m / cells
+    places = [(column * step, row * step) for row in range(cells + 1) for column in range(cells + 1)]
+    facets = []
+    for row in range(cells):
+        for column in range(cells):
+            corner = row * (cells + 1) + column
+            above = corner + cells + 1
+            facets += [corner, corner + 1, above + 1, corner, above + 1, above]
     chunk = LabeledMeshChunk(key=list(key), revision=1)
     chunk.origin.x, chunk.origin.y, chunk.origin.z = origin
-    chunk.vertices = [Point32(*v) for v in zip(x.tolist(), y.tolist(), z.tolist())]
+    chunk.vertices = [Point32(x, y, height(x + origin[0], y + origin[1]) if height else 0.0)
+                      for x, y in places]
     chunk.vertex_ids = list(range(len(chunk.vertices)))
-    chunk.triangles = facets.ravel().tolist()
+    chunk.triangles = facets
     count = 2 * cells * cells
     chunk.labels = [label] * count
     chunk.confidence = bytes([confidence] * count)
