@@ -21,10 +21,10 @@ class GeometryBuilder {
     has_labels_ = fits(chunk.labels.size(), facets);
     has_confidence_ = fits(chunk.confidence.size(), facets);
     has_views_ = fits(chunk.views.size(), facets);
-    chunk_code_ = static_cast<std::uint8_t>(
-        (static_cast<std::uint32_t>(chunk.key[0]) * 5U +
-         static_cast<std::uint32_t>(chunk.key[1]) * 3U +
-         static_cast<std::uint32_t>(chunk.key[2]) * 7U) % 12U);
+    chunk_code_ = static_cast<std::uint8_t>((static_cast<std::uint32_t>(chunk.key[0]) * 5U +
+                                             static_cast<std::uint32_t>(chunk.key[1]) * 3U +
+                                             static_cast<std::uint32_t>(chunk.key[2]) * 7U) %
+                                            12U);
   }
 
   ChunkGeometry build() {

@@ -67,8 +67,7 @@ void ChunkRenderable::upload_indices(const ChunkGeometry& geometry) {
 }
 
 Ogre::Real ChunkRenderable::getSquaredViewDepth(const Ogre::Camera* camera) const {
-  const Ogre::Vector3 center =
-      getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
+  const Ogre::Vector3 center = getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
   return (center - camera->getDerivedPosition()).squaredLength();
 }
 

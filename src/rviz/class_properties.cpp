@@ -34,8 +34,12 @@ void ClassProperties::load(const rviz::Config& config) {
 void ClassProperties::add(const ClassStyle& style) {
   Entry entry{};
   const QString name = QString::fromStdString(style.name);
-  entry.shown = new rviz::BoolProperty(
-      name, style.visible, "Whether facets of this class are drawn.", root_, SIGNAL(changed()), this);
+  entry.shown = new rviz::BoolProperty(name,
+                                       style.visible,
+                                       "Whether facets of this class are drawn.",
+                                       root_,
+                                       SIGNAL(changed()),
+                                       this);
   entry.color = new rviz::ColorProperty("Color",
                                         to_qt(style.color),
                                         "Taken from the palette topic unless chosen here.",

@@ -4,10 +4,10 @@
 // The tree of classes among a display's properties: checkbox, colour, opacity, share of area.
 #pragma once
 
+#include <QObject>
 #include <cstddef>
 #include <vector>
 
-#include <QObject>
 #include <rviz/config.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>

@@ -12,11 +12,8 @@ namespace {
 constexpr Rgb kUnlabelledColor{128, 128, 128};
 constexpr Rgb kUnknownColor{255, 0, 255};
 // Perceived brightness grows along the ramp, so that it reads without a legend.
-constexpr std::array<std::array<double, 3>, 5> kRamp{{{40, 30, 110},
-                                                      {45, 90, 160},
-                                                      {30, 150, 135},
-                                                      {120, 205, 80},
-                                                      {250, 230, 40}}};
+constexpr std::array<std::array<double, 3>, 5> kRamp{
+    {{40, 30, 110}, {45, 90, 160}, {30, 150, 135}, {120, 205, 80}, {250, 230, 40}}};
 constexpr std::array<Rgb, 12> kChunkColors{{{141, 211, 199},
                                             {255, 237, 111},
                                             {190, 186, 218},
@@ -86,9 +83,8 @@ std::vector<std::uint8_t> ClassTable::texels() const {
   for (std::size_t slot = 0; slot < kSlots; ++slot) {
     const ClassStyle style = slot < styles_.size() ? styles_[slot] : ClassStyle();
     write_texel(style.color, style.visible ? byte_of(style.alpha) : 0, &texels[4 * slot]);
-    write_texel(ramp_color(static_cast<double>(slot) / (kSlots - 1)),
-                255,
-                &texels[4 * (kSlots + slot)]);
+    write_texel(
+        ramp_color(static_cast<double>(slot) / (kSlots - 1)), 255, &texels[4 * (kSlots + slot)]);
     write_texel(kChunkColors[slot % kChunkColors.size()], 255, &texels[4 * (2 * kSlots + slot)]);
   }
   return texels;
@@ -117,10 +113,10 @@ std::vector<double> area_shares(const std::vector<double>& area_by_slot_m2) {
   const double total = std::accumulate(area_by_slot_m2.begin(), area_by_slot_m2.end(), 0.0);
   std::vector<double> shares(area_by_slot_m2.size(), 0.0);
   if (total > 0.0) {
-    std::transform(area_by_slot_m2.begin(),
-                   area_by_slot_m2.end(),
-                   shares.begin(),
-                   [total](double area) { return area / total; });
+    std::transform(
+        area_by_slot_m2.begin(), area_by_slot_m2.end(), shares.begin(), [total](double area) {
+          return area / total;
+        });
   }
   return shares;
 }

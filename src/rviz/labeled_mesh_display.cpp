@@ -86,8 +86,12 @@ void LabeledMeshDisplay::add_limit_properties() {
       "Min Confidence", 0.0F, "Facets below (0..1) are left out.", this, slot);
   min_confidence_->setMin(0.0F);
   min_confidence_->setMax(1.0F);
-  max_distance_ = new rviz::FloatProperty(
-      "Max Distance", 0.0F, "From the eye [m]; what is farther is left out. 0: no limit.", this, slot);
+  max_distance_ =
+      new rviz::FloatProperty("Max Distance",
+                              0.0F,
+                              "From the eye [m]; what is farther is left out. 0: no limit.",
+                              this,
+                              slot);
   max_distance_->setMin(0.0F);
 }
 
@@ -291,12 +295,13 @@ void LabeledMeshDisplay::report_faults() {
   const std::size_t bad_facets = view_->bad_facets();
   const std::size_t bad_chunks = view_->chunks_with_bad_attributes();
   if (bad_facets > 0 || bad_chunks > 0) {
-    setStatus(rviz::StatusProperty::Warn,
-              "Facets",
-              QString("%1 facets left out (index out of range or vertex not finite), arrays of wrong "
-                      "length in %2 chunks: the publisher is at fault")
-                  .arg(bad_facets)
-                  .arg(bad_chunks));
+    setStatus(
+        rviz::StatusProperty::Warn,
+        "Facets",
+        QString("%1 facets left out (index out of range or vertex not finite), arrays of wrong "
+                "length in %2 chunks: the publisher is at fault")
+            .arg(bad_facets)
+            .arg(bad_chunks));
   } else {
     deleteStatus("Facets");
   }

@@ -6,16 +6,15 @@
 
 #include <memory>
 
+#include "class_properties.h"
+#include "mesh_source.h"
+#include "mesh_view.h"
 #include <rviz/display.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
-
-#include "class_properties.h"
-#include "mesh_source.h"
-#include "mesh_view.h"
 
 namespace facet_mapping {
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "mesh_shaders.h"
 #include <OgreGpuProgramParams.h>
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreHighLevelGpuProgram.h>
@@ -12,8 +13,6 @@
 #include <OgrePass.h>
 #include <OgreTechnique.h>
 #include <OgreTextureManager.h>
-
-#include "mesh_shaders.h"
 
 namespace facet_mapping {
 namespace {
@@ -104,8 +103,7 @@ void MeshMaterial::add_pass() {
   pass->setFragmentProgram(kFragmentProgram);
   const Ogre::GpuProgramParametersSharedPtr vertex = pass->getVertexProgramParameters();
   vertex->setIgnoreMissingParams(true);
-  vertex->setNamedAutoConstant("to_screen",
-                               Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  vertex->setNamedAutoConstant("to_screen", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
   vertex->setNamedAutoConstant("to_view", Ogre::GpuProgramParameters::ACT_WORLDVIEW_MATRIX);
   vertex->setNamedAutoConstant("to_world", Ogre::GpuProgramParameters::ACT_WORLD_MATRIX);
   pass->getFragmentProgramParameters()->setIgnoreMissingParams(true);

@@ -32,8 +32,7 @@ std::string name_beside(const std::string& topic, const std::string& name) {
   return ros::names::append(ros::names::parentNamespace(topic), name);
 }
 
-MeshSource::MeshSource(const ros::NodeHandle& nh)
-    : nh_(nh), inbox_(std::make_shared<Inbox>()) {}
+MeshSource::MeshSource(const ros::NodeHandle& nh) : nh_(nh), inbox_(std::make_shared<Inbox>()) {}
 
 void MeshSource::subscribe(const std::string& mesh_topic) {
   unsubscribe();
@@ -46,8 +45,7 @@ void MeshSource::subscribe(const std::string& mesh_topic) {
     const std::lock_guard<std::mutex> lock(inbox->mutex);
     inbox->palette = palette;
   };
-  palette_sub_ =
-      nh_.subscribe<ClassPalette>(name_beside(topic_, "palette"), 1, take_palette);
+  palette_sub_ = nh_.subscribe<ClassPalette>(name_beside(topic_, "palette"), 1, take_palette);
 }
 
 void MeshSource::subscribe_mesh() {
@@ -92,8 +90,7 @@ bool MeshSource::apply(const LabeledMesh::Ptr& message, ChunkStore* store) {
 }
 
 bool MeshSource::take_answer(ChunkStore* store) {
-  if (!answer_.valid() ||
-      answer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+  if (!answer_.valid() || answer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     return false;
   }
   const LabeledMesh::Ptr full = answer_.get();

@@ -27,7 +27,8 @@ std::string name_beside(const std::string& topic, const std::string& name);
 /// Messages arrive in another thread, poll() takes them in that of the window.
 class MeshSource {
  public:
-  /// `nh`: its callbacks must not run in the window's thread, so that large messages do not stop it.
+  /// `nh`: its callbacks must not run in the window's thread, so that large messages do not stop
+  /// it.
   explicit MeshSource(const ros::NodeHandle& nh);
 
   /// Throws ros::Exception if the name is none.
@@ -38,8 +39,8 @@ class MeshSource {
     bool mesh = false;
     bool palette = false;
   };
-  /// Applies what has arrived since the last call. After a gap it asks get_mesh and keeps what comes
-  /// meanwhile; if that does not answer, it subscribes anew, which brings the full mesh, too.
+  /// Applies what has arrived since the last call. After a gap it asks get_mesh and keeps what
+  /// comes meanwhile; if that does not answer, it subscribes anew, which brings the full mesh, too.
   News poll(ChunkStore* store, ClassTable* classes);
 
   std::size_t messages() const { return messages_; }

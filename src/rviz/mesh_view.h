@@ -9,14 +9,14 @@
 #include <memory>
 #include <vector>
 
+#include "chunk_renderable.h"
+#include "mesh_material.h"
 #include <Eigen/Geometry>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
-#include "chunk_renderable.h"
 #include "facet_mapping/rviz/chunk_store.h"
 #include "facet_mapping/rviz/class_table.h"
-#include "mesh_material.h"
 
 namespace facet_mapping {
 

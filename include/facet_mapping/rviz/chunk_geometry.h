@@ -20,19 +20,19 @@ namespace facet_mapping {
 /// One vertex in the buffer. `normal` and `facet` are those of the one facet whose last corner it
 /// is: the shader takes them unblended (`flat`) from there.
 struct FacetVertex {
-  std::array<float, 3> position{};       ///< relative to the chunk's origin, metres
-  std::array<std::int8_t, 4> normal{};   ///< -127..127 = -1..1; zero if the facet has no area
-  std::array<std::uint8_t, 4> facet{};   ///< class slot, confidence, views (at most 255), chunk
+  std::array<float, 3> position{};      ///< relative to the chunk's origin, metres
+  std::array<std::int8_t, 4> normal{};  ///< -127..127 = -1..1; zero if the facet has no area
+  std::array<std::uint8_t, 4> facet{};  ///< class slot, confidence, views (at most 255), chunk
 };
 static_assert(sizeof(FacetVertex) == 20, "goes to the graphics card as it is");
 
 struct ChunkGeometry {
   std::vector<FacetVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three per facet, counter-clockwise from free space
-  Eigen::AlignedBox3f box;             ///< of what is drawn, relative to the origin; empty if nothing
+  Eigen::AlignedBox3f box;  ///< of what is drawn, relative to the origin; empty if nothing
   std::map<std::uint8_t, double> area_by_slot_m2;
-  std::size_t bad_facets = 0;    ///< left out: index out of range, or a vertex that is not finite
-  bool bad_attributes = false;   ///< an array of wrong length was taken as absent
+  std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
+  bool bad_attributes = false;  ///< an array of wrong length was taken as absent
 };
 
 /// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as

@@ -26,8 +26,9 @@ class ChunkStore {
     kGap,      ///< a message before this one was missed: a full mesh is needed
   };
 
-  /// Takes a message's chunks out of it, unless the result says that nothing was done. Those of a full mesh whose revision is known already count as
-  /// unchanged, so that a full mesh after a gap draws only what was missed.
+  /// Takes a message's chunks out of it, unless the result says that nothing was done. Those of a
+  /// full mesh whose revision is known already count as unchanged, so that a full mesh after a gap
+  /// draws only what was missed.
   Result apply(LabeledMesh&& message);
 
   /// The next chunk to draw anew, which is then no longer due; nothing if all are drawn.

@@ -23,9 +23,9 @@ struct ClassStyle {
   Label id = kUnlabelled;
   std::string name;
   Rgb color{};
-  float alpha = 1.0F;     ///< 0..1
+  float alpha = 1.0F;  ///< 0..1
   bool visible = true;
-  bool in_palette = false;   ///< false: a label was met that the palette does not name
+  bool in_palette = false;  ///< false: a label was met that the palette does not name
 };
 
 /// Facets carry slots, not class ids, so that neither a late palette nor a change of colours
