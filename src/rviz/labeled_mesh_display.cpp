@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <exception>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <pluginlib/class_list_macros.hpp>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
@@ -17,6 +21,13 @@ namespace {
 constexpr double kMinUploadTime = 0.01;
 constexpr double kMaxUploadTime = 0.15;
 constexpr float kReportInterval = 0.5F;  // seconds
+
+/// A message's many arrays leave holes behind, which glibc would keep for good.
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 Rgb rgb_of(const QColor& color) {
   return {static_cast<std::uint8_t>(color.red()),
@@ -238,8 +249,9 @@ void LabeledMeshDisplay::update_height_range() {
 }
 
 void LabeledMeshDisplay::report() {
-  if (is_shape_new_) {
+  if (is_shape_new_ && store_.waiting() == 0) {
     is_shape_new_ = false;
+    give_back_memory();
     class_properties_->show_shares(area_shares(view_->area_by_slot_m2()));
     update_height_range();
   }

@@ -45,24 +45,30 @@ void set_common(const MeshLook& look, bool is_blended, Ogre::Pass* pass) {
   pass->setDepthWriteEnabled(!is_blended);
 }
 
-void set_uniforms(const MeshLook& look, float darkening, Ogre::Pass* pass) {
-  constexpr float kNoLimit = 1.0e9F;
-  const Ogre::GpuProgramParametersSharedPtr params = pass->getFragmentProgramParameters();
+constexpr float kNoLimit = 1.0e9F;
+
+void set_vertex_uniforms(const MeshLook& look,
+                         float darkening,
+                         Ogre::GpuProgramParameters* params) {
   params->setNamedConstant("mode", static_cast<float>(look.mode));
   params->setNamedConstant("alpha", look.alpha);
   params->setNamedConstant("lighting", look.lighting ? 1.0F : 0.0F);
   params->setNamedConstant("darkening", darkening);
   params->setNamedConstant("min_confidence", 255.0F * look.min_confidence);
-  params->setNamedConstant("max_distance", look.max_distance > 0.0F ? look.max_distance : kNoLimit);
-  params->setNamedConstant("cut_height", look.cut ? look.cut_height : kNoLimit);
   params->setNamedConstant("full_views", look.full_views);
-  params->setNamedConstant("height_range",
-                           Ogre::Vector2(look.height_range[0], look.height_range[1]));
   params->setNamedConstant("flat_rgb",
                            Ogre::Vector4(static_cast<float>(look.flat_color[0]) / 255.0F,
                                          static_cast<float>(look.flat_color[1]) / 255.0F,
                                          static_cast<float>(look.flat_color[2]) / 255.0F,
                                          1.0F));
+}
+
+void set_fragment_uniforms(const MeshLook& look, Ogre::GpuProgramParameters* params) {
+  params->setNamedConstant("mode", static_cast<float>(look.mode));
+  params->setNamedConstant("max_distance", look.max_distance > 0.0F ? look.max_distance : kNoLimit);
+  params->setNamedConstant("cut_height", look.cut ? look.cut_height : kNoLimit);
+  params->setNamedConstant("height_range",
+                           Ogre::Vector2(look.height_range[0], look.height_range[1]));
 }
 
 }  // namespace
@@ -103,6 +109,7 @@ void MeshMaterial::add_pass() {
   pass->setFragmentProgram(kFragmentProgram);
   const Ogre::GpuProgramParametersSharedPtr vertex = pass->getVertexProgramParameters();
   vertex->setIgnoreMissingParams(true);
+  vertex->setNamedConstant("palette", 0);
   vertex->setNamedAutoConstant("to_screen", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
   vertex->setNamedAutoConstant("to_view", Ogre::GpuProgramParameters::ACT_WORLDVIEW_MATRIX);
   vertex->setNamedAutoConstant("to_world", Ogre::GpuProgramParameters::ACT_WORLD_MATRIX);
@@ -130,7 +137,9 @@ void MeshMaterial::set_look(const MeshLook& look, bool is_translucent) {
     pass->setPolygonMode(has_edges ? Ogre::PM_WIREFRAME : Ogre::PM_SOLID);
     pass->setDepthBias(k == 1 ? 2.0F : 0.0F, k == 1 ? 2.0F : 0.0F);
     set_common(look, is_blended, pass);
-    set_uniforms(look, k == 1 ? kEdgeDarkening : 1.0F, pass);
+    set_vertex_uniforms(
+        look, k == 1 ? kEdgeDarkening : 1.0F, pass->getVertexProgramParameters().get());
+    set_fragment_uniforms(look, pass->getFragmentProgramParameters().get());
   }
 }
 

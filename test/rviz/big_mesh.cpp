@@ -41,7 +41,9 @@ facet_mapping::LabeledMeshChunk make_chunk(int column, int row, int cells) {
       const auto a = static_cast<std::uint32_t>(k * (cells + 1) + i);
       const std::uint32_t b = a + static_cast<std::uint32_t>(cells) + 1;
       chunk.triangles.insert(chunk.triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
-      chunk.labels.insert(chunk.labels.end(), 2, static_cast<std::uint16_t>((column + row) % 3));
+      chunk.labels.insert(chunk.labels.end(),
+                          2,
+                          static_cast<std::uint16_t>((column + row + 2 * kChunksPerSide) % 3));
       chunk.confidence.insert(chunk.confidence.end(), 2, static_cast<std::uint8_t>(i));
       chunk.views.insert(chunk.views.end(), 2, static_cast<std::uint16_t>(k));
     }
