@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chunk_renderable.h"
 
+#include <cmath>
 #include <memory>
+#include <utility>
 
 #include <OgreCamera.h>
 #include <OgreHardwareBufferManager.h>
 #include <OgreNode.h>
+#include <OgreViewport.h>
 
 namespace facet_mapping {
 namespace {
 
 constexpr std::size_t kMaxShortIndex = 65535;
+constexpr float kMaxLossPixels = 1.5F;   // by which a coarse level may differ
+constexpr float kUnknownScale = 1.0e9F;  // asks for the finest level
 
 Ogre::Vector3 to_ogre(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
@@ -21,7 +26,12 @@ Ogre::Vector3 to_ogre(const Eigen::Vector3f& v) {
 
 ChunkRenderable::ChunkRenderable(const ChunkGeometry& geometry) {
   upload_vertices(geometry);
-  upload_indices(geometry);
+  const bool is_short = geometry.vertices.size() <= kMaxShortIndex;
+  add_level(geometry.indices, 0.0F, is_short);
+  for (const CoarseLevel& level : geometry.levels) {
+    add_level(level.indices, level.cell_m, is_short);
+  }
+  mRenderOp.indexData = levels_.front().indices.get();
   mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
   mRenderOp.useIndexes = true;
   setBoundingBox({to_ogre(geometry.box.min()), to_ogre(geometry.box.max())});
@@ -29,9 +39,7 @@ ChunkRenderable::ChunkRenderable(const ChunkGeometry& geometry) {
 }
 
 ChunkRenderable::~ChunkRenderable() {
-  // Ogre's render operations do not own their data.
-  delete mRenderOp.vertexData;
-  delete mRenderOp.indexData;
+  delete mRenderOp.vertexData;  // which the render operation does not own
 }
 
 void ChunkRenderable::upload_vertices(const ChunkGeometry& geometry) {
@@ -48,22 +56,53 @@ void ChunkRenderable::upload_vertices(const ChunkGeometry& geometry) {
   mRenderOp.vertexData = data.release();
 }
 
-void ChunkRenderable::upload_indices(const ChunkGeometry& geometry) {
-  const bool is_short = geometry.vertices.size() <= kMaxShortIndex;
-  auto data = std::make_unique<Ogre::IndexData>();
-  data->indexCount = geometry.indices.size();
-  data->indexBuffer = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
+void ChunkRenderable::add_level(const std::vector<std::uint32_t>& indices,
+                                float cell_m,
+                                bool is_short) {
+  Level level;
+  level.cell_m = cell_m;
+  level.indices = std::make_unique<Ogre::IndexData>();
+  level.indices->indexCount = indices.size();
+  const auto buffer = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
       is_short ? Ogre::HardwareIndexBuffer::IT_16BIT : Ogre::HardwareIndexBuffer::IT_32BIT,
-      data->indexCount,
+      indices.size(),
       Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
-  const std::size_t bytes = data->indexBuffer->getSizeInBytes();
   if (is_short) {
-    const std::vector<std::uint16_t> indices(geometry.indices.begin(), geometry.indices.end());
-    data->indexBuffer->writeData(0, bytes, indices.data(), true);
+    const std::vector<std::uint16_t> short_indices(indices.begin(), indices.end());
+    buffer->writeData(0, buffer->getSizeInBytes(), short_indices.data(), true);
   } else {
-    data->indexBuffer->writeData(0, bytes, geometry.indices.data(), true);
+    buffer->writeData(0, buffer->getSizeInBytes(), indices.data(), true);
   }
-  mRenderOp.indexData = data.release();
+  level.indices->indexBuffer = buffer;
+  levels_.push_back(std::move(level));
+}
+
+float ChunkRenderable::pixels_per_metre(const Ogre::Camera& camera) const {
+  const Ogre::Viewport* viewport = camera.getViewport();
+  if (viewport == nullptr) {
+    return kUnknownScale;
+  }
+  // Holds for rviz's orthographic views, too, which bring a projection of their own.
+  const Ogre::Matrix4& projection = camera.getProjectionMatrix();
+  const float at_unit_distance =
+      0.5F * std::abs(projection[1][1]) * static_cast<float>(viewport->getActualHeight());
+  if (projection[3][3] == 1.0F) {
+    return at_unit_distance;
+  }
+  const Ogre::Vector3 center = getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
+  const float nearest =
+      (center - camera.getDerivedPosition()).length() - getBoundingBox().getHalfSize().length();
+  return nearest > 0.0F ? at_unit_distance / nearest : kUnknownScale;
+}
+
+void ChunkRenderable::_notifyCurrentCamera(Ogre::Camera* camera) {
+  SimpleRenderable::_notifyCurrentCamera(camera);
+  const float scale = pixels_per_metre(*camera);
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && levels_[level + 1].cell_m * scale < kMaxLossPixels) {
+    ++level;
+  }
+  mRenderOp.indexData = levels_[level].indices.get();
 }
 
 Ogre::Real ChunkRenderable::getSquaredViewDepth(const Ogre::Camera* camera) const {

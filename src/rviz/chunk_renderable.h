@@ -4,6 +4,9 @@
 // One chunk's buffers on the graphics card.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include <OgreSimpleRenderable.h>
 
 #include "facet_mapping/rviz/chunk_geometry.h"
@@ -21,13 +24,22 @@ class ChunkRenderable : public Ogre::SimpleRenderable {
   ChunkRenderable(ChunkRenderable&&) = delete;
   ChunkRenderable& operator=(ChunkRenderable&&) = delete;
 
+  /// Chooses the level whose loss cannot be seen from there.
+  void _notifyCurrentCamera(Ogre::Camera* camera) override;
   Ogre::Real getBoundingRadius() const override { return radius_; }
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
  private:
   void upload_vertices(const ChunkGeometry& geometry);
-  void upload_indices(const ChunkGeometry& geometry);
+  struct Level {
+    float cell_m = 0.0F;
+    std::unique_ptr<Ogre::IndexData> indices;
+  };
 
+  void add_level(const std::vector<std::uint32_t>& indices, float cell_m, bool is_short);
+  float pixels_per_metre(const Ogre::Camera& camera) const;
+
+  std::vector<Level> levels_;  // from fine to coarse
   Ogre::Real radius_ = 0.0F;
 };
 

@@ -51,7 +51,8 @@ void MeshView::show(const LabeledMeshChunk& chunk, ClassTable* classes) {
     shown_[key] = std::move(shown);
     return;
   }
-  const ChunkGeometry geometry = make_chunk_geometry(chunk, classes);
+  ChunkGeometry geometry = make_chunk_geometry(chunk, classes);
+  add_coarse_levels(&geometry);
   shown.facets = geometry.indices.size() / 3;
   shown.bad_facets = geometry.bad_facets;
   shown.bad_attributes = geometry.bad_attributes;

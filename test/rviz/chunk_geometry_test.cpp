@@ -149,6 +149,50 @@ TEST(ChunkGeometry, AnEmptyChunkIsEmpty) {
   EXPECT_EQ(geometry.bad_facets, 0U);
 }
 
+TEST(CoarseLevels, MoveNothingFartherThanTheirCellAndKeepClasses) {
+  LabeledMeshChunk chunk = wavy_field(40);
+  for (geometry_msgs::Point32& v : chunk.vertices) {  // 4 m of ground, vertices 10 cm apart
+    v.x *= 0.1F;
+    v.y *= 0.1F;
+    v.z *= 0.1F;
+  }
+  ClassTable classes;
+  ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  const std::size_t fine_vertices = geometry.vertices.size();
+  const std::vector<std::uint32_t> fine_indices = geometry.indices;
+  add_coarse_levels(&geometry);
+  EXPECT_EQ(geometry.indices, fine_indices);
+  ASSERT_EQ(geometry.levels.size(), 2U);
+  EXPECT_LT(geometry.vertices.size(), 2 * fine_vertices);
+  std::size_t finer = fine_indices.size();
+  for (const CoarseLevel& level : geometry.levels) {
+    EXPECT_LE(level.indices.size(), finer / 2);
+    finer = level.indices.size();
+    Eigen::AlignedBox3f box;
+    std::set<std::uint32_t> last_corners;
+    for (std::size_t k = 0; k < level.indices.size(); ++k) {
+      ASSERT_LT(level.indices[k], geometry.vertices.size());
+      box.extend(Eigen::Vector3f::Map(geometry.vertices[level.indices[k]].position.data()));
+      if (k % 3 == 2) {
+        EXPECT_TRUE(last_corners.insert(level.indices[k]).second);
+        EXPECT_NE(geometry.vertices[level.indices[k]].normal[2], 0);
+      }
+    }
+    EXPECT_LE((box.min() - geometry.box.min()).cwiseAbs().maxCoeff(), level.cell_m);
+    EXPECT_LE((box.max() - geometry.box.max()).cwiseAbs().maxCoeff(), level.cell_m);
+  }
+}
+
+TEST(CoarseLevels, AreLeftOutWhereTheyGainNothing) {
+  ClassTable classes;
+  ChunkGeometry geometry = make_chunk_geometry(unit_square(0), &classes);
+  add_coarse_levels(&geometry);
+  EXPECT_TRUE(geometry.levels.empty());
+  ChunkGeometry empty;
+  add_coarse_levels(&empty);
+  EXPECT_TRUE(empty.levels.empty());
+}
+
 TEST(ChunkGeometry, UnknownClassesAreMetOnceEach) {
   ClassTable classes;
   LabeledMeshChunk chunk = unit_square(0);

@@ -26,9 +26,16 @@ struct FacetVertex {
 };
 static_assert(sizeof(FacetVertex) == 20, "goes to the graphics card as it is");
 
+/// The chunk for the far view, its vertices drawn together on a grid.
+struct CoarseLevel {
+  float cell_m = 0.0F;  ///< edge of the grid's cells: what moves moves less than that
+  std::vector<std::uint32_t> indices;  ///< as those of ChunkGeometry
+};
+
 struct ChunkGeometry {
   std::vector<FacetVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three per facet, counter-clockwise from free space
+  std::vector<CoarseLevel> levels;     ///< from fine to coarse, each at most half of the one before
   Eigen::AlignedBox3f box;  ///< of what is drawn, relative to the origin; empty if nothing
   std::map<std::uint8_t, double> area_by_slot_m2;
   std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
@@ -38,5 +45,8 @@ struct ChunkGeometry {
 /// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as
 /// long as each has one of its own to be last.
 ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, ClassTable* classes);
+
+/// Fills `levels`, and appends the vertices that they need.
+void add_coarse_levels(ChunkGeometry* geometry);
 
 }  // namespace facet_mapping
