@@ -20,7 +20,8 @@ namespace {
 // alive, and a large mesh still comes within a few frames.
 constexpr double kMinUploadTime = 0.01;
 constexpr double kMaxUploadTime = 0.15;
-constexpr float kReportInterval = 0.5F;  // seconds
+constexpr std::size_t kManyFacets = 200000;  // less leaves no holes worth the time
+constexpr float kReportInterval = 0.5F;      // seconds
 
 /// A message's many arrays leave holes behind, which glibc would keep for good.
 void give_back_memory() {
@@ -251,7 +252,10 @@ void LabeledMeshDisplay::update_height_range() {
 void LabeledMeshDisplay::report() {
   if (is_shape_new_ && store_.waiting() == 0) {
     is_shape_new_ = false;
-    give_back_memory();
+    if (view_->drawn() > drawn_before_ + kManyFacets) {
+      drawn_before_ = view_->drawn();
+      give_back_memory();
+    }
     class_properties_->show_shares(area_shares(view_->area_by_slot_m2()));
     update_height_range();
   }

@@ -73,8 +73,9 @@ class LabeledMeshDisplay : public rviz::Display {
   std::unique_ptr<MeshView> view_;
   ChunkStore store_;
   ClassTable classes_;
-  float since_report_ = 0.0F;  // seconds
-  bool is_shape_new_ = false;  // since the last report
+  float since_report_ = 0.0F;     // seconds
+  std::size_t drawn_before_ = 0;  // facets, when memory was given back last
+  bool is_shape_new_ = false;     // since the last report
 };
 
 }  // namespace facet_mapping

@@ -70,6 +70,7 @@ void MeshView::show(const LabeledMeshChunk& chunk, ClassTable* classes) {
     shown.node->attachObject(shown.renderable.get());
   }
   facets_ += shown.facets;
+  drawn_ += shown.facets;
   shown_[key] = std::move(shown);
 }
 

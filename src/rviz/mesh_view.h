@@ -36,6 +36,8 @@ class MeshView {
 
   MeshMaterial& material() { return material_; }
   std::size_t facets() const { return facets_; }
+  /// Facets drawn anew since the beginning.
+  std::size_t drawn() const { return drawn_; }
   std::size_t bad_facets() const;
   std::size_t chunks_with_bad_attributes() const;
   std::vector<double> area_by_slot_m2() const;
@@ -60,6 +62,7 @@ class MeshView {
   MeshMaterial material_;
   std::map<ChunkKey, Shown> shown_;
   std::size_t facets_ = 0;
+  std::size_t drawn_ = 0;
 };
 
 }  // namespace facet_mapping
