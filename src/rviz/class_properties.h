@@ -41,7 +41,7 @@ class ClassProperties : public QObject {
   void show_or_hide_all();
   void note_color();
 
- private:
+ private:  // NOLINT(readability-redundant-access-specifiers): ends the slots for moc
   struct Entry {
     rviz::BoolProperty* shown;
     rviz::ColorProperty* color;

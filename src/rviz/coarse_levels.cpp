@@ -11,7 +11,7 @@ namespace facet_mapping {
 namespace {
 
 constexpr std::array<float, 2> kCells{0.25F, 1.0F};  // metres
-constexpr std::size_t kFewIndices = 3 * 64;          // a chunk this small costs nothing
+constexpr std::size_t kFewIndices = 192;             // a chunk this small costs nothing
 
 /// For each cell the vertex that stands for all in it: the nearest to its centre. Chunks usually
 /// end where cells have their centres, so that neighbours choose the same vertices on the border.

@@ -40,7 +40,7 @@ class LabeledMeshDisplay : public rviz::Display {
   void update_look();
   void update_classes();
 
- private:
+ private:  // NOLINT(readability-redundant-access-specifiers): ends the slots for moc
   void add_look_properties();
   void add_limit_properties();
   void upload_palette();
