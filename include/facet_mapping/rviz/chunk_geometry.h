@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A chunk as the graphics card takes it: one vertex per facet carries what belongs to the facet.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <facet_mapping/LabeledMeshChunk.h>
+
+#include "facet_mapping/rviz/class_table.h"
+
+namespace facet_mapping {
+
+/// One vertex in the buffer. `normal` and `facet` are those of the one facet whose last corner it
+/// is: the shader takes them unblended (`flat`) from there.
+struct FacetVertex {
+  std::array<float, 3> position{};      ///< relative to the chunk's origin, metres
+  std::array<std::int8_t, 4> normal{};  ///< -127..127 = -1..1; zero if the facet has no area
+  std::array<std::uint8_t, 4> facet{};  ///< class slot, confidence, views (at most 255), chunk
+};
+static_assert(sizeof(FacetVertex) == 20, "goes to the graphics card as it is");
+
+/// The chunk for the far view, its vertices drawn together on a grid.
+struct CoarseLevel {
+  float cell_m = 0.0F;  ///< edge of the grid's cells: what moves moves less than that
+  std::vector<std::uint32_t> indices;  ///< as those of ChunkGeometry
+};
+
+struct ChunkGeometry {
+  std::vector<FacetVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< three per facet, counter-clockwise from free space
+  std::vector<CoarseLevel> levels;     ///< from fine to coarse, each at most half of the one before
+  Eigen::AlignedBox3f box;  ///< of what is drawn, relative to the origin; empty if nothing
+  std::map<std::uint8_t, double> area_by_slot_m2;
+  std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
+  bool bad_attributes = false;  ///< an array of wrong length was taken as absent
+};
+
+/// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as
+/// long as each has one of its own to be last.
+ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, ClassTable* classes);
+
+/// Fills `levels`, and appends the vertices that they need.
+void add_coarse_levels(ChunkGeometry* geometry);
+
+}  // namespace facet_mapping

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "chunk_renderable.h"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <OgreCamera.h>
+#include <OgreHardwareBufferManager.h>
+#include <OgreNode.h>
+#include <OgreViewport.h>
+
+namespace facet_mapping {
+namespace {
+
+constexpr std::size_t kMaxShortIndex = 65535;
+constexpr float kMaxLossPixels = 1.5F;   // by which a coarse level may differ
+constexpr float kUnknownScale = 1.0e9F;  // asks for the finest level
+
+Ogre::Vector3 to_ogre(const Eigen::Vector3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+ChunkRenderable::ChunkRenderable(const ChunkGeometry& geometry) {
+  upload_vertices(geometry);
+  const bool is_short = geometry.vertices.size() <= kMaxShortIndex;
+  add_level(geometry.indices, 0.0F, is_short);
+  for (const CoarseLevel& level : geometry.levels) {
+    add_level(level.indices, level.cell_m, is_short);
+  }
+  mRenderOp.indexData = levels_.front().indices.get();
+  mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
+  mRenderOp.useIndexes = true;
+  setBoundingBox({to_ogre(geometry.box.min()), to_ogre(geometry.box.max())});
+  radius_ = geometry.box.min().cwiseAbs().cwiseMax(geometry.box.max().cwiseAbs()).norm();
+}
+
+ChunkRenderable::~ChunkRenderable() {
+  delete mRenderOp.vertexData;  // which the render operation does not own
+}
+
+void ChunkRenderable::upload_vertices(const ChunkGeometry& geometry) {
+  auto data = std::make_unique<Ogre::VertexData>();
+  data->vertexCount = geometry.vertices.size();
+  Ogre::VertexDeclaration* layout = data->vertexDeclaration;
+  layout->addElement(0, offsetof(FacetVertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
+  layout->addElement(0, offsetof(FacetVertex, normal), Ogre::VET_BYTE4_NORM, Ogre::VES_NORMAL);
+  layout->addElement(0, offsetof(FacetVertex, facet), Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
+  const auto buffer = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+      sizeof(FacetVertex), data->vertexCount, Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  buffer->writeData(0, buffer->getSizeInBytes(), geometry.vertices.data(), true);
+  data->vertexBufferBinding->setBinding(0, buffer);
+  mRenderOp.vertexData = data.release();
+}
+
+void ChunkRenderable::add_level(const std::vector<std::uint32_t>& indices,
+                                float cell_m,
+                                bool is_short) {
+  Level level;
+  level.cell_m = cell_m;
+  level.indices = std::make_unique<Ogre::IndexData>();
+  level.indices->indexCount = indices.size();
+  const auto buffer = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
+      is_short ? Ogre::HardwareIndexBuffer::IT_16BIT : Ogre::HardwareIndexBuffer::IT_32BIT,
+      indices.size(),
+      Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  if (is_short) {
+    const std::vector<std::uint16_t> short_indices(indices.begin(), indices.end());
+    buffer->writeData(0, buffer->getSizeInBytes(), short_indices.data(), true);
+  } else {
+    buffer->writeData(0, buffer->getSizeInBytes(), indices.data(), true);
+  }
+  level.indices->indexBuffer = buffer;
+  levels_.push_back(std::move(level));
+}
+
+float ChunkRenderable::pixels_per_metre(const Ogre::Camera& camera) const {
+  const Ogre::Viewport* viewport = camera.getViewport();
+  if (viewport == nullptr) {
+    return kUnknownScale;
+  }
+  // Holds for rviz's orthographic views, too, which bring a projection of their own.
+  const Ogre::Matrix4& projection = camera.getProjectionMatrix();
+  const float at_unit_distance =
+      0.5F * std::abs(projection[1][1]) * static_cast<float>(viewport->getActualHeight());
+  if (projection[3][3] == 1.0F) {
+    return at_unit_distance;
+  }
+  const Ogre::Vector3 center = getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
+  const float nearest =
+      (center - camera.getDerivedPosition()).length() - getBoundingBox().getHalfSize().length();
+  return nearest > 0.0F ? at_unit_distance / nearest : kUnknownScale;
+}
+
+void ChunkRenderable::_notifyCurrentCamera(Ogre::Camera* camera) {
+  SimpleRenderable::_notifyCurrentCamera(camera);
+  const float scale = pixels_per_metre(*camera);
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && levels_[level + 1].cell_m * scale < kMaxLossPixels) {
+    ++level;
+  }
+  mRenderOp.indexData = levels_[level].indices.get();
+}
+
+Ogre::Real ChunkRenderable::getSquaredViewDepth(const Ogre::Camera* camera) const {
+  const Ogre::Vector3 center = getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
+  return (center - camera->getDerivedPosition()).squaredLength();
+}
+
+}  // namespace facet_mapping

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One chunk's buffers on the graphics card.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <OgreSimpleRenderable.h>
+
+#include "facet_mapping/rviz/chunk_geometry.h"
+
+namespace facet_mapping {
+
+/// Hangs below a scene node at the chunk's origin.
+class ChunkRenderable : public Ogre::SimpleRenderable {
+ public:
+  /// Uploads the geometry, which must not be empty.
+  explicit ChunkRenderable(const ChunkGeometry& geometry);
+  ~ChunkRenderable() override;
+  ChunkRenderable(const ChunkRenderable&) = delete;
+  ChunkRenderable& operator=(const ChunkRenderable&) = delete;
+  ChunkRenderable(ChunkRenderable&&) = delete;
+  ChunkRenderable& operator=(ChunkRenderable&&) = delete;
+
+  /// Chooses the level whose loss cannot be seen from there.
+  void _notifyCurrentCamera(Ogre::Camera* camera) override;
+  Ogre::Real getBoundingRadius() const override { return radius_; }
+  Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
+
+ private:
+  void upload_vertices(const ChunkGeometry& geometry);
+  struct Level {
+    float cell_m = 0.0F;
+    std::unique_ptr<Ogre::IndexData> indices;
+  };
+
+  void add_level(const std::vector<std::uint32_t>& indices, float cell_m, bool is_short);
+  float pixels_per_metre(const Ogre::Camera& camera) const;
+
+  std::vector<Level> levels_;  // from fine to coarse
+  Ogre::Real radius_ = 0.0F;
+};
+
+}  // namespace facet_mapping

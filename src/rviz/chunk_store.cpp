@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "facet_mapping/rviz/chunk_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace facet_mapping {
+namespace {
+
+ChunkKey key_of(const LabeledMeshChunk& chunk) {
+  return {chunk.key[0], chunk.key[1], chunk.key[2]};
+}
+
+}  // namespace
+
+ChunkStore::Result ChunkStore::judge(const LabeledMesh& message) const {
+  const bool is_same_map = has_mesh_ && message.map_id == map_id_;
+  if (message.full != 0) {
+    return is_same_map && message.sequence < sequence_ ? Result::kOld : Result::kApplied;
+  }
+  if (is_same_map && message.sequence <= sequence_) {
+    return Result::kOld;
+  }
+  return is_same_map && message.sequence == sequence_ + 1 ? Result::kApplied : Result::kGap;
+}
+
+ChunkStore::Result ChunkStore::apply(LabeledMesh&& message) {
+  const Result result = judge(message);
+  if (result != Result::kApplied) {
+    return result;
+  }
+  const bool is_same_map = has_mesh_ && message.map_id == map_id_ && !map_id_.empty();
+  if (message.full != 0) {
+    drop_all_but(message);
+  }
+  for (std::size_t k = 0; k + 2 < message.removed_keys.size(); k += 3) {
+    remove({message.removed_keys[k], message.removed_keys[k + 1], message.removed_keys[k + 2]});
+  }
+  for (LabeledMeshChunk& chunk : message.chunks) {
+    replace(std::move(chunk), is_same_map);
+  }
+  has_mesh_ = true;
+  map_id_ = message.map_id;
+  frame_id_ = message.header.frame_id;
+  sequence_ = message.sequence;
+  return result;
+}
+
+void ChunkStore::drop_all_but(const LabeledMesh& message) {
+  std::set<ChunkKey> kept;
+  for (const LabeledMeshChunk& chunk : message.chunks) {
+    kept.insert(key_of(chunk));
+  }
+  for (auto next = chunks_.begin(); next != chunks_.end();) {
+    const ChunkKey key = (next++)->first;
+    if (kept.count(key) == 0) {
+      remove(key);
+    }
+  }
+}
+
+void ChunkStore::remove(const ChunkKey& key) {
+  if (chunks_.erase(key) > 0) {
+    removed_.insert(key);
+  }
+  changed_.erase(key);
+}
+
+void ChunkStore::replace(LabeledMeshChunk chunk, bool is_same_map) {
+  const ChunkKey key = key_of(chunk);
+  const auto known = chunks_.find(key);
+  if (is_same_map && known != chunks_.end() && known->second.revision == chunk.revision) {
+    return;
+  }
+  chunks_[key] = std::move(chunk);
+  changed_.insert(key);
+  removed_.erase(key);
+}
+
+const LabeledMeshChunk* ChunkStore::take_changed() {
+  if (changed_.empty()) {
+    return nullptr;
+  }
+  const ChunkKey key = *changed_.begin();
+  changed_.erase(changed_.begin());
+  return &chunks_.at(key);
+}
+
+std::optional<ChunkKey> ChunkStore::take_removed() {
+  if (removed_.empty()) {
+    return std::nullopt;
+  }
+  const ChunkKey key = *removed_.begin();
+  removed_.erase(removed_.begin());
+  return key;
+}
+
+std::size_t ChunkStore::facets() const {
+  std::size_t facets = 0;
+  for (const auto& [key, chunk] : chunks_) {
+    facets += chunk.triangles.size() / 3;
+  }
+  return facets;
+}
+
+void ChunkStore::clear() {
+  std::set<ChunkKey> removed = std::move(removed_);
+  for (const auto& [key, chunk] : chunks_) {
+    removed.insert(key);
+  }
+  *this = ChunkStore();
+  removed_ = std::move(removed);
+}
+
+}  // namespace facet_mapping

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: facet_mapping contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The shaders that draw chunks (GLSL 1.30: the first with `flat` and texelFetch).
+#pragma once
+
+namespace facet_mapping {
+
+// Ogre looks for its own attribute names (vertex, normal, colour, ...) in the text and would bind
+// them: no variable may be called so. What belongs to the facet is settled at its last corner, so
+// that the rasterizer, which software GL feels most, carries two values and no more.
+constexpr const char* kMeshVertexShader = R"(#version 130
+uniform sampler2D palette;  // rows: classes, ramp, chunks
+uniform mat4 to_screen;
+uniform mat4 to_view;
+uniform mat4 to_world;
+uniform float mode;
+uniform float alpha;
+uniform float lighting;
+uniform float darkening;
+uniform float min_confidence;
+uniform float full_views;
+uniform vec4 flat_rgb;
+flat out vec4 rgba;  // alpha 0: not drawn; mode height: the brightness alone
+out vec4 place;      // x, y, z seen from the eye, height
+vec3 ramp(float value) {
+  return texelFetch(palette, ivec2(int(clamp(value, 0.0, 1.0) * 255.0 + 0.5), 1), 0).rgb;
+}
+vec3 pick(vec4 of_class, vec4 facet) {
+  if (mode < 0.5) return of_class.rgb;
+  if (mode < 1.5) return ramp(facet.y / 255.0);
+  if (mode < 2.5) return 0.5 + 0.5 * mat3(to_world) * gl_Normal;
+  if (mode < 3.5) return vec3(1.0);
+  if (mode < 4.5) return ramp(facet.z / full_views);
+  if (mode < 5.5) return texelFetch(palette, ivec2(int(facet.w), 2), 0).rgb;
+  return flat_rgb.rgb;
+}
+void main() {
+  vec4 facet = floor(gl_Color * 255.0 + 0.5);  // class slot, confidence, views, chunk
+  vec4 of_class = texelFetch(palette, ivec2(int(facet.x), 0), 0);
+  vec3 seen = (to_view * gl_Vertex).xyz;
+  vec3 n_seen = normalize(mat3(to_view) * gl_Normal + vec3(0.0, 0.0, 1.0e-6));
+  float light = mix(1.0, 0.4 + 0.6 * abs(dot(n_seen, normalize(seen))), lighting);
+  float shown = facet.y < min_confidence ? 0.0 : of_class.a * alpha;
+  rgba = vec4(pick(of_class, facet) * light * darkening, shown);
+  place = vec4(seen, (to_world * gl_Vertex).z);
+  gl_Position = to_screen * gl_Vertex;
+}
+)";
+
+constexpr const char* kMeshFragmentShader = R"(#version 130
+uniform sampler2D palette;
+uniform float mode;
+uniform float max_distance;
+uniform float cut_height;
+uniform vec2 height_range;
+flat in vec4 rgba;
+in vec4 place;
+void main() {
+  if (rgba.a == 0.0 || place.w > cut_height ||
+      dot(place.xyz, place.xyz) > max_distance * max_distance) {
+    discard;
+  }
+  vec3 seen = rgba.rgb;
+  if (mode > 2.5 && mode < 3.5) {
+    float part = (place.w - height_range.x) / (height_range.y - height_range.x);
+    seen *= texelFetch(palette, ivec2(int(clamp(part, 0.0, 1.0) * 255.0 + 0.5), 1), 0).rgb;
+  }
+  gl_FragColor = vec4(seen, rgba.a);
+}
+)";
+
+}  // namespace facet_mapping

@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: facet_mapping contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The display in a real rviz: the colours of named pixels. With FACET_MAPPING_PICTURES=FOLDER the
+pictures are kept."""
+import os
+import sys
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from facet_mapping.msg import ClassPalette, LabeledMesh
+from facet_mapping.srv import GetMesh, GetMeshResponse
+
+import mesh_messages
+import rviz_window
+
+BACKGROUND = (32, 36, 40)
+# A point in each field, by class; none on an edge of a facet.
+POINTS = {0: (3.2, 6.8), 1: (-6.8, 4.3), 2: (-4.3, -5.7), 3: (6.8, -4.3)}
+COLORS = {number: rgb for number, (_, rgb) in mesh_messages.CLASSES.items()}
+TOLERANCE = 3  # of 255: rounding on the way through the graphics library
+RAMP_LOW, RAMP_HIGH = (40, 30, 110), (250, 230, 40)
+PICTURES = os.environ.get("FACET_MAPPING_PICTURES")
+
+
+def is_near(a, b):
+    return all(abs(x - y) <= TOLERANCE for x, y in zip(a, b))
+
+
+class Mapper:
+    """Stands in for the node that publishes the mesh: like it, sends newcomers the whole mesh."""
+
+    def __init__(self):
+        self.full = mesh_messages.mesh(mesh_messages.four_fields())
+        self.calls = 0
+        self._palette = rospy.Publisher("/mapper/palette", ClassPalette, latch=True, queue_size=1)
+        self._palette.publish(mesh_messages.palette())
+        self._mesh = rospy.Publisher("/mapper/mesh", LabeledMesh, self, queue_size=10)
+        self._service = rospy.Service("/mapper/get_mesh", GetMesh, self.answer)
+
+    def peer_subscribe(self, _topic, _publish, publish_to_peer):
+        publish_to_peer(self.full)
+
+    def peer_unsubscribe(self, _topic, _number):
+        pass
+
+    def answer(self, _request):
+        self.calls += 1
+        return GetMeshResponse(mesh=self.full)
+
+    def show(self, message, full=None):
+        self.full = full or message
+        self._mesh.publish(message)
+
+
+class LabeledMeshDisplayTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if rviz_window.missing():
+            raise unittest.SkipTest("not installed: " + ", ".join(rviz_window.missing()))
+        rospy.init_node("labeled_mesh_display_test")
+        cls.mapper = Mapper()
+        cls.window = rviz_window.RvizWindow(rosgraph.get_master_uri())
+        cls.addClassCleanup(cls.window.close)
+        cls.window.start()
+
+    def setUp(self):
+        self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id=self.id()))
+
+    def expect(self, colors):
+        """`colors`: by class whose field is looked at, what is to be seen there."""
+        def is_right(picture):
+            return all(is_near(picture.at(*POINTS[k]), color) for k, color in colors.items())
+
+        path = PICTURES and os.path.join(PICTURES, self.id().split(".")[-1] + ".png")
+        picture = self.window.wait_for(is_right, path)
+        self.assertTrue(self.window.is_alive(), "rviz has ended")
+        for number, color in colors.items():
+            seen = picture.at(*POINTS[number])
+            self.assertTrue(is_near(seen, color), "class %d: %s, not %s" % (number, seen, color))
+
+    def test_class_colors(self):
+        self.window.load()
+        self.expect(COLORS)
+
+    def test_a_class_switched_off(self):
+        self.window.load("Classes:\n  Value: true\n  building:\n    Value: false")
+        self.expect({**COLORS, 1: BACKGROUND})
+
+    def test_a_class_recolored_and_translucent(self):
+        self.window.load("Classes:\n  Value: true\n  road:\n    Color: 10; 200; 30\n    Value: true\n"
+                         "  car:\n    Alpha: 0.5\n    Value: true")
+        half = tuple((a + b) / 2 for a, b in zip(COLORS[3], BACKGROUND))
+        self.expect({**COLORS, 0: (10, 200, 30), 3: half})
+
+    def test_confidence(self):
+        self.window.load("Color Mode: confidence")
+        self.expect({0: RAMP_HIGH, 1: (44, 78, 150), 2: RAMP_HIGH, 3: RAMP_HIGH})
+
+    def test_normal(self):
+        self.window.load("Color Mode: normal")
+        self.expect({k: (128, 128, 255) for k in COLORS})
+
+    def test_height(self):
+        self.window.load("Color Mode: height")
+        self.expect({0: RAMP_LOW, 1: RAMP_LOW, 2: RAMP_LOW, 3: RAMP_HIGH})
+
+    def test_views(self):
+        self.window.load("Color Mode: views")
+        self.expect({0: RAMP_HIGH, 1: (45, 90, 160), 2: RAMP_LOW, 3: (30, 150, 135)})
+
+    def test_chunk(self):
+        self.window.load("Color Mode: chunk")
+        others = set(COLORS.values()) | {BACKGROUND}
+
+        def is_right(picture):
+            seen = {picture.at(*POINTS[k]) for k in COLORS}
+            return len(seen) == 4 and not seen & others
+
+        path = PICTURES and os.path.join(PICTURES, "test_chunk.png")
+        self.assertTrue(is_right(self.window.wait_for(is_right, path)))
+
+    def test_flat(self):
+        self.window.load("Color Mode:\n  Value: flat\n  Color: 12; 34; 200")
+        self.expect({k: (12, 34, 200) for k in COLORS})
+
+    def test_limits(self):
+        self.window.load("Min Confidence: 0.5\nCut:\n  Value: true\n  Height: 1")
+        self.expect({**COLORS, 1: BACKGROUND, 3: BACKGROUND})
+
+    def test_wireframe_leaves_the_middle_free(self):
+        self.window.load("Style: wireframe")
+        self.expect({k: BACKGROUND for k in COLORS})
+
+    def test_edges_over_faces(self):
+        self.window.load("Style: both")
+        self.expect(COLORS)
+
+    def test_a_delta_changes_one_chunk_and_removes_another(self):
+        self.window.load()
+        self.expect(COLORS)
+        changed = mesh_messages.field((0, 0, 0), (0.0, 0.0, 0.0), 4, 10.0, 3)
+        changed.revision = 2
+        delta = mesh_messages.mesh([changed], 2, False, self.id())
+        delta.removed_keys = [-1, -1, 0]
+        self.mapper.show(delta, self.mapper.full)
+        self.expect({**COLORS, 0: COLORS[3], 2: BACKGROUND})
+
+    def test_after_a_lost_message_get_mesh_is_asked(self):
+        self.window.load()
+        self.expect(COLORS)
+        calls = self.mapper.calls
+        now = [mesh_messages.field((0, 0, 0), (0.0, 0.0, 0.0), 4, 10.0, 2)]
+        now[0].revision = 3
+        delta = mesh_messages.mesh([], 5, False, self.id())
+        self.mapper.show(delta, mesh_messages.mesh(now, 5, True, self.id()))
+        self.expect({0: COLORS[2], 1: BACKGROUND, 2: BACKGROUND, 3: BACKGROUND})
+        self.assertEqual(self.mapper.calls, calls + 1)
+
+    def test_reset(self):
+        self.window.load()
+        self.expect(COLORS)
+        self.mapper.show(mesh_messages.mesh([], 0, True, "after the reset"))
+        self.expect({k: BACKGROUND for k in COLORS})
+
+    def test_what_a_broken_publisher_sends(self):
+        self.window.load()
+        bad = mesh_messages.four_fields()
+        for vertex in bad[0].vertices:
+            vertex.z = float("nan")
+        bad[1].triangles = [900000 + k for k in range(len(bad[1].triangles))]
+        bad[2].labels = bad[2].labels[:-1]
+        bad[3].labels = [77] * len(bad[3].labels)
+        self.mapper.show(mesh_messages.mesh(bad, map_id="broken"))
+        self.expect({0: BACKGROUND, 1: BACKGROUND, 2: (128, 128, 128), 3: (255, 0, 255)})
+
+    def test_rviz_restarted(self):
+        self.window.stop()
+        self.window.start()
+        self.expect(COLORS)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("facet_mapping", "labeled_mesh_display", LabeledMeshDisplayTest, sys.argv)
