@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: facet_mapping contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Time from publishing to seeing all of a big mesh, and rviz's memory: measure_big_mesh.py
-(mesh|marker) CELLS [PICTURE]. Needs a ROS master, and `ninja big_mesh`."""
+(mesh|marker) CELLS [PICTURE]. Needs a ROS master, and `ninja big_mesh_test`."""
 import subprocess
 import sys
 import time
