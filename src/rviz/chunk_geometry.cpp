@@ -84,7 +84,7 @@ class GeometryBuilder {
   std::array<std::uint8_t, 4> attributes(std::size_t facet) const {
     const Label label = has_labels_ ? chunk_.labels[facet] : kUnlabelled;
     const std::uint8_t confidence = has_confidence_ ? chunk_.confidence[facet] : 255;
-    const std::uint16_t views = has_views_ ? chunk_.views[facet] : 0;
+    const std::uint16_t views = has_views_ ? chunk_.views[facet] : 1;
     return {classes_->slot_of(label),
             confidence,
             static_cast<std::uint8_t>(std::min<std::uint16_t>(views, 255)),

@@ -98,6 +98,12 @@ void LabeledMeshDisplay::add_limit_properties() {
       "Min Confidence", 0.0F, "Facets below (0..1) are left out.", this, slot);
   min_confidence_->setMin(0.0F);
   min_confidence_->setMax(1.0F);
+  unseen_ = new rviz::BoolProperty(
+      "Unseen Facets",
+      false,
+      "Draw also what only closes the surface through space that nobody saw (views 0).",
+      this,
+      slot);
   max_distance_ =
       new rviz::FloatProperty("Max Distance",
                               0.0F,
@@ -165,6 +171,7 @@ MeshLook LabeledMeshDisplay::look() const {
   look.cull_back_faces = cull_->getBool();
   look.alpha = alpha_->getFloat();
   look.min_confidence = min_confidence_->getFloat();
+  look.unseen_facets = unseen_->getBool();
   look.max_distance = max_distance_->getFloat();
   look.cut = cut_->getBool();
   look.cut_height = cut_height_->getFloat();

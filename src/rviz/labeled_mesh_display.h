@@ -66,6 +66,7 @@ class LabeledMeshDisplay : public rviz::Display {
   rviz::BoolProperty* cut_ = nullptr;
   rviz::FloatProperty* cut_height_ = nullptr;
   rviz::FloatProperty* min_confidence_ = nullptr;
+  rviz::BoolProperty* unseen_ = nullptr;
   rviz::FloatProperty* max_distance_ = nullptr;
   ClassProperties* class_properties_ = nullptr;
 

@@ -55,6 +55,7 @@ void set_vertex_uniforms(const MeshLook& look,
   params->setNamedConstant("lighting", look.lighting ? 1.0F : 0.0F);
   params->setNamedConstant("darkening", darkening);
   params->setNamedConstant("min_confidence", 255.0F * look.min_confidence);
+  params->setNamedConstant("min_views", look.unseen_facets ? 0.0F : 1.0F);
   params->setNamedConstant("full_views", look.full_views);
   params->setNamedConstant("flat_rgb",
                            Ogre::Vector4(static_cast<float>(look.flat_color[0]) / 255.0F,

@@ -37,6 +37,7 @@ struct MeshLook {
   bool cull_back_faces = false;
   float alpha = 1.0F;
   float min_confidence = 0.0F;  ///< 0..1
+  bool unseen_facets = false;   ///< draw facets that no ray has met (views 0), too
   float max_distance = 0.0F;    ///< from the eye; 0: no limit
   bool cut = false;             ///< true: nothing above cut_height is drawn
   float cut_height = 0.0F;

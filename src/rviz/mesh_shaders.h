@@ -19,6 +19,7 @@ uniform float alpha;
 uniform float lighting;
 uniform float darkening;
 uniform float min_confidence;
+uniform float min_views;
 uniform float full_views;
 uniform vec4 flat_rgb;
 flat out vec4 rgba;  // alpha 0: not drawn; mode height: the brightness alone
@@ -41,7 +42,7 @@ void main() {
   vec3 seen = (to_view * gl_Vertex).xyz;
   vec3 n_seen = normalize(mat3(to_view) * gl_Normal + vec3(0.0, 0.0, 1.0e-6));
   float light = mix(1.0, 0.4 + 0.6 * abs(dot(n_seen, normalize(seen))), lighting);
-  float shown = facet.y < min_confidence ? 0.0 : of_class.a * alpha;
+  float shown = facet.y < min_confidence || facet.z < min_views ? 0.0 : of_class.a * alpha;
   rgba = vec4(pick(of_class, facet) * light * darkening, shown);
   place = vec4(seen, (to_world * gl_Vertex).z);
   gl_Position = to_screen * gl_Vertex;

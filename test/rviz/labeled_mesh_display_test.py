@@ -130,6 +130,10 @@ class LabeledMeshDisplayTest(unittest.TestCase):
         self.window.load("Min Confidence: 0.5\nCut:\n  Value: true\n  Height: 1")
         self.expect({**COLORS, 1: BACKGROUND, 3: BACKGROUND})
 
+    def test_unseen_facets_are_left_out_unless_wanted(self):
+        self.window.load("Unseen Facets: false")
+        self.expect({**COLORS, 2: BACKGROUND})
+
     def test_wireframe_leaves_the_middle_free(self):
         self.window.load("Style: wireframe")
         self.expect({k: BACKGROUND for k in COLORS})
