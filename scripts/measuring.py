@@ -1,4 +1,5 @@
 """What scripts/benchmark, scripts/paper_tables and scripts/point_tables share: running programs and scoring meshes."""
+import concurrent.futures
 import json
 import os
 import statistics
@@ -61,3 +62,24 @@ def missing_data(data, name):
     if name is None or os.path.isdir(os.path.join(data, name)):
         return ""
     return "the data set %s is not in %s (set FACET_MAPPING_DATA)" % (name, data)
+
+
+def run_parts(options, parts, run, write):
+    """Runs the chosen parts that have their data: `run(name)` gives cases, `write(cases, skipped)`
+    the files, which are printed at the end. `parts`: name -> (function, data set or None)."""
+    os.makedirs(options.output, exist_ok=True)
+    options.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
+    reasons = {name: missing_data(options.data, parts[name][1]) for name in options.parts or parts}
+    skipped = ["%s: %s" % one for one in reasons.items() if one[1]]
+    for reason in skipped:
+        say("skipped " + reason)
+    cases, files = [], []
+    for name in (name for name, reason in reasons.items() if not reason):
+        say(name)
+        cases += run(name)
+        # After each part, so that a run cut short leaves what it has.
+        files = write(cases, skipped)
+    if not cases:
+        sys.exit("nothing was run")
+    for path in files:
+        print(path)

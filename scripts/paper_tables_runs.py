@@ -1,13 +1,11 @@
 """The runs of scripts/paper_tables, which is the one to call."""
 import argparse
-import concurrent.futures
 import json
 import os
-import sys
 import tempfile
 
 import paper_tables_report as report
-from measuring import evaluate, missing_data, run, say, write_fountain_classes
+from measuring import evaluate, run, run_parts, say, write_fountain_classes
 
 # The paper's methods as options of refine_mesh.
 METHODS = {"initial mesh": ["--iterations", "0"], "photometric only": ["--semantic", "off"],
@@ -179,24 +177,14 @@ def parse_options():
 
 def main():
     options = parse_options()
-    os.makedirs(options.output, exist_ok=True)
-    options.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
-    reasons = {name: missing_data(options.data, PARTS[name][1]) for name in options.parts or PARTS}
-    skipped = ["%s: %s" % one for one in reasons.items() if one[1]]
-    for reason in skipped:
-        say("skipped " + reason)
-    cases, streets, files = [], {}, []
-    for name in (name for name, reason in reasons.items() if not reason):
-        say(name)
-        cases += PARTS[name][0](options, streets)
+    streets = {}
+
+    def write(cases, skipped):
         with open(os.path.join(options.output, "scores.json"), "w") as file:
             json.dump(cases, file, indent=1)
-        # After each part, so that a run cut short leaves what it has.
-        files = report.write(options.output, cases, skipped, options.quick)
-    if not cases:
-        sys.exit("nothing was run")
-    for path in files:
-        print(path)
+        return report.write(options.output, cases, skipped, options.quick)
+
+    run_parts(options, PARTS, lambda name: PARTS[name][0](options, streets), write)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,11 @@
 """The runs of scripts/point_tables, which is the one to call."""
 import argparse
-import concurrent.futures
 import json
 import os
-import sys
 import tempfile
 
 import point_tables_report as report
-from measuring import evaluate, missing_data, run, say, write_fountain_classes
+from measuring import evaluate, run, run_parts, write_fountain_classes
 
 KITTI, FOUNTAIN = "kitti_drive_0009", "fountain_p11"
 MAX_DEPTH_M = "30"  # of the maps' ground truth
@@ -128,22 +126,8 @@ def parse_options():
 
 def main():
     options = parse_options()
-    os.makedirs(options.output, exist_ok=True)
-    options.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
-    reasons = {name: missing_data(options.data, PARTS[name][1]) for name in options.parts or PARTS}
-    skipped = ["%s: %s" % one for one in reasons.items() if one[1]]
-    for reason in skipped:
-        say("skipped " + reason)
-    cases, files = [], []
-    for name in (name for name, reason in reasons.items() if not reason):
-        say(name)
-        cases.append({"key": name, **PARTS[name][0](options)})
-        # After each part, so that a run cut short leaves what it has.
-        files = report.write(options.output, cases, skipped, options.quick)
-    if not cases:
-        sys.exit("nothing was run")
-    for path in files:
-        print(path)
+    run_parts(options, PARTS, lambda name: [{"key": name, **PARTS[name][0](options)}],
+              lambda cases, skipped: report.write(options.output, cases, skipped, options.quick))
 
 
 if __name__ == "__main__":

@@ -6,18 +6,13 @@
 #include <utility>
 
 #include "facet_mapping/labels/label_image.h"
+#include "facet_mapping/points/without_sky.h"
 
 namespace facet_mapping {
 namespace {
 
 constexpr char kTracks[] = "tracks";
 constexpr char kSweep[] = "sweep";
-
-template <typename Config>
-Config without_sky(Config config, const LabelSet& labels) {
-  config.excluded_labels = labels.sky_ids();
-  return config;
-}
 
 void append(std::vector<PointFrame> frames, const char* sensor, std::vector<SensorPoints>* points) {
   for (PointFrame& frame : frames) {

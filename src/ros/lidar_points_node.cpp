@@ -29,11 +29,6 @@ NearestLabels::Config nearest_config(const LidarPointsNodeConfig& config) {
           static_cast<std::size_t>(config.queue_size)};
 }
 
-/// tf2 knows no leading slash, but old drivers still send it.
-std::string without_slash(const std::string& frame_id) {
-  return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
-}
-
 }  // namespace
 
 struct LidarPointsNode::Frame {

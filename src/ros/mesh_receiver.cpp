@@ -10,20 +10,10 @@
 
 namespace facet_mapping {
 
-bool MeshReceiver::is_next(const LabeledMesh& message) const {
-  return has_mesh_ && message.map_id == map_id_ && message.sequence == sequence_ + 1;
-}
-
 MeshReceiver::Result MeshReceiver::apply(const LabeledMesh& message) {
-  const bool is_same_map = has_mesh_ && message.map_id == map_id_;
-  if (is_same_map && message.sequence <= sequence_ && message.full == 0) {
-    return Result::kOld;
-  }
-  if (is_same_map && message.sequence < sequence_) {
-    return Result::kOld;
-  }
-  if (message.full == 0 && !is_next(message)) {
-    return Result::kGap;
+  const Result result = state_.judge(message);
+  if (result != Result::kApplied) {
+    return result;
   }
   if (message.removed_keys.size() % 3 != 0) {
     throw std::invalid_argument("mesh: the length of removed_keys is no multiple of 3");
@@ -43,12 +33,9 @@ MeshReceiver::Result MeshReceiver::apply(const LabeledMesh& message) {
     const ChunkKey key = chunk.key;
     chunks_[key] = std::move(chunk);
   }
-  has_mesh_ = true;
-  map_id_ = message.map_id;
-  frame_id_ = message.header.frame_id;
-  sequence_ = message.sequence;
+  state_.advance_to(message);
   stamp_ = message.header.stamp;
-  return Result::kApplied;
+  return result;
 }
 
 TriangleMesh MeshReceiver::mesh() const {

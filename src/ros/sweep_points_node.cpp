@@ -2,18 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/sweep_points_node.h"
 
+#include "facet_mapping/points/without_sky.h"
 #include "facet_mapping/ros/node_setup.h"
 
 namespace facet_mapping {
-namespace {
-
-SweepConfig without_sky(SweepConfig config, const LabelSet& labels) {
-  config.excluded_labels = labels.sky_ids();
-  return config;
-}
-
-}  // namespace
-
 SweepPointsNode::SweepPointsNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
     : labels_(set_up_node(
           parameter_table(&config_), private_nh, &config_.input.segmentation.label_file)),

@@ -2,18 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/ros/track_points_node.h"
 
+#include "facet_mapping/points/without_sky.h"
 #include "facet_mapping/ros/node_setup.h"
 
 namespace facet_mapping {
-namespace {
-
-TrackConfig without_sky(TrackConfig config, const LabelSet& labels) {
-  config.excluded_labels = labels.sky_ids();
-  return config;
-}
-
-}  // namespace
-
 TrackPointsNode::TrackPointsNode(ros::NodeHandle nh, ros::NodeHandle private_nh)
     : labels_(set_up_node(
           parameter_table(&config_), private_nh, &config_.input.segmentation.label_file)),

@@ -11,12 +11,11 @@ namespace {
 
 constexpr double kPollPeriodS = 0.05;  // only while something waits
 
-/// tf2 knows no leading slash, but old drivers still send it.
+}  // namespace
+
 std::string without_slash(const std::string& frame_id) {
   return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
 }
-
-}  // namespace
 
 TransformQueue::TransformQueue(const ros::NodeHandle& nh,
                                const tf2_ros::Buffer* buffer,

@@ -14,23 +14,12 @@ ChunkKey key_of(const LabeledMeshChunk& chunk) {
 
 }  // namespace
 
-ChunkStore::Result ChunkStore::judge(const LabeledMesh& message) const {
-  const bool is_same_map = has_mesh_ && message.map_id == map_id_;
-  if (message.full != 0) {
-    return is_same_map && message.sequence < sequence_ ? Result::kOld : Result::kApplied;
-  }
-  if (is_same_map && message.sequence <= sequence_) {
-    return Result::kOld;
-  }
-  return is_same_map && message.sequence == sequence_ + 1 ? Result::kApplied : Result::kGap;
-}
-
 ChunkStore::Result ChunkStore::apply(LabeledMesh&& message) {
-  const Result result = judge(message);
+  const Result result = state_.judge(message);
   if (result != Result::kApplied) {
     return result;
   }
-  const bool is_same_map = has_mesh_ && message.map_id == map_id_ && !map_id_.empty();
+  const bool is_same_map = state_.is_map(message.map_id) && !message.map_id.empty();
   if (message.full != 0) {
     drop_all_but(message);
   }
@@ -40,10 +29,7 @@ ChunkStore::Result ChunkStore::apply(LabeledMesh&& message) {
   for (LabeledMeshChunk& chunk : message.chunks) {
     replace(std::move(chunk), is_same_map);
   }
-  has_mesh_ = true;
-  map_id_ = message.map_id;
-  frame_id_ = message.header.frame_id;
-  sequence_ = message.sequence;
+  state_.advance_to(message);
   return result;
 }
 

@@ -79,6 +79,19 @@ TEST(DatasetPoints, SaysWhatIsMissing) {
   EXPECT_THROW(DatasetPoints(dataset, {}, config), std::invalid_argument);
 }
 
+/// The first frames of the dataset, each once.
+void expect_frames_in_order(const std::vector<SensorPoints>& points,
+                            const std::string& sensor,
+                            std::size_t count,
+                            const Dataset& dataset) {
+  ASSERT_EQ(points.size(), count);
+  for (std::size_t k = 0; k < count; ++k) {
+    EXPECT_EQ(points[k].sensor, sensor);
+    EXPECT_EQ(points[k].frame.stamp, dataset.frames[k].stamp);
+    EXPECT_GT(points[k].frame.points.size(), 100U);
+  }
+}
+
 TEST(DatasetPoints, TracksOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
   FACET_MAPPING_DATA_OR_SKIP(folder, "kitti_drive_0009");
   const Dataset dataset = read_dataset(folder);
@@ -98,12 +111,7 @@ TEST(DatasetPoints, TracksOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
   EXPECT_EQ(all.size(), 3U);
   const std::vector<SensorPoints> rest = points.finish();
   all.insert(all.end(), rest.begin(), rest.end());
-  ASSERT_EQ(all.size(), 5U);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    EXPECT_EQ(all[k].sensor, "tracks");
-    EXPECT_EQ(all[k].frame.stamp, dataset.frames[k].stamp);
-    EXPECT_GT(all[k].frame.points.size(), 100U);
-  }
+  expect_frames_in_order(all, "tracks", 5U, dataset);
 }
 
 TEST(DatasetPoints, SweptPointsOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
@@ -122,12 +130,7 @@ TEST(DatasetPoints, SweptPointsOfARealDriveComeOutForEveryFrameOnceAndInOrder) {
   const std::vector<SensorPoints> rest = points.finish();
   EXPECT_FALSE(rest.empty());
   all.insert(all.end(), rest.begin(), rest.end());
-  ASSERT_EQ(all.size(), 4U);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    EXPECT_EQ(all[k].sensor, "sweep");
-    EXPECT_EQ(all[k].frame.stamp, dataset.frames[k].stamp);
-    EXPECT_GT(all[k].frame.points.size(), 100U);
-  }
+  expect_frames_in_order(all, "sweep", 4U, dataset);
 }
 
 TEST(DatasetPoints, FollowGivesNothingUnlessTracksAreWanted) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/shared_data.h"
+#include "true_depth.h"
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -16,42 +17,8 @@
 namespace facet_mapping {
 namespace {
 
-struct Shares {
-  std::size_t points = 0;
-  double within_1 = 0.0;
-  double within_3 = 0.0;
-  double within_5 = 0.0;
-
-  void add(double depth, double truth) {
-    const double error = std::abs(depth - truth) / truth;
-    ++points;
-    within_1 += error <= 0.01 ? 1.0 : 0.0;
-    within_3 += error <= 0.03 ? 1.0 : 0.0;
-    within_5 += error <= 0.05 ? 1.0 : 0.0;
-  }
-
-  void divide() {
-    for (double* share : {&within_1, &within_3, &within_5}) {
-      *share /= static_cast<double>(points);
-    }
-  }
-};
-
-/// The true depths are of the images' full size.
-void compare(const PointFrame& frame,
-             const PinholeCamera& full_camera,
-             const cv::Mat& true_depth,
-             Shares* shares) {
-  for (const LabeledPoint& point : frame.points) {
-    const Eigen::Vector2d pixel = full_camera.project(point.position.cast<double>());
-    const cv::Point nearest(static_cast<int>(std::lround(pixel.x())),
-                            static_cast<int>(std::lround(pixel.y())));
-    if (cv::Rect(0, 0, true_depth.cols, true_depth.rows).contains(nearest) &&
-        true_depth.at<float>(nearest) > 0.0F) {
-      shares->add(point.position.z(), true_depth.at<float>(nearest));
-    }
-  }
-}
+using test::compare;
+using test::Shares;
 
 struct RealSweep {
   Shares shares;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/shared_data.h"
+#include "true_depth.h"
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
@@ -16,46 +17,9 @@ namespace facet_mapping {
 namespace {
 
 constexpr int kFrames = 16;
-constexpr double kMetresPerUnit = 1.0 / 256.0;
 
-struct Shares {
-  std::size_t points = 0;
-  double within_1 = 0.0;
-  double within_3 = 0.0;
-  double within_5 = 0.0;
-
-  void add(double depth, double truth) {
-    const double error = std::abs(depth - truth) / truth;
-    ++points;
-    within_1 += error <= 0.01 ? 1.0 : 0.0;
-    within_3 += error <= 0.03 ? 1.0 : 0.0;
-    within_5 += error <= 0.05 ? 1.0 : 0.0;
-  }
-
-  void divide() {
-    for (double* share : {&within_1, &within_3, &within_5}) {
-      *share /= static_cast<double>(points);
-    }
-  }
-};
-
-void compare(const PointFrame& frame,
-             const PinholeCamera& camera,
-             const cv::Mat& true_depth,
-             Shares* shares) {
-  for (const LabeledPoint& point : frame.points) {
-    const Eigen::Vector2d pixel = camera.project(point.position.cast<double>());
-    const cv::Point nearest(static_cast<int>(std::lround(pixel.x())),
-                            static_cast<int>(std::lround(pixel.y())));
-    if (!cv::Rect(0, 0, true_depth.cols, true_depth.rows).contains(nearest)) {
-      continue;
-    }
-    const double truth = true_depth.at<std::uint16_t>(nearest) * kMetresPerUnit;
-    if (truth > 0.0) {
-      shares->add(point.position.z(), truth);
-    }
-  }
-}
+using test::compare;
+using test::Shares;
 
 TEST(RealTracks, PointsOfOneCameraAgreeWithLidar) {
   FACET_MAPPING_DATA_OR_SKIP(folder, "kitti_drive_0009");
@@ -75,11 +39,10 @@ TEST(RealTracks, PointsOfOneCameraAgreeWithLidar) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const DatasetFrame& frame = dataset.frames[k];
     ASSERT_EQ(frames[k].stamp, frame.stamp);
-    const std::string name = frame.left_image.substr(frame.left_image.rfind('/'));
-    const cv::Mat depth = cv::imread(folder + "/gt_depth" + name, cv::IMREAD_UNCHANGED);
     points += frames[k].points.size();
-    if (!depth.empty()) {
-      compare(frames[k], frame.view.camera, depth, &shares);
+    if (!frame.gt_depth.empty()) {
+      compare(
+          frames[k], frame.view.camera, read_depth(frame.gt_depth, dataset.depth_scale), &shares);
     }
   }
   ASSERT_GT(shares.points, 500U);

@@ -173,7 +173,9 @@ TEST(TrackPoints, MovingThingsGiveNoPoints) {
 TEST(TrackPoints, AJumpOfTheExposureLosesFewPoints) {
   std::vector<TrackPicture> pictures = sideways();
   for (std::size_t k = 4; k < pictures.size(); ++k) {
-    pictures[k].gray.convertTo(pictures[k].gray, CV_8U, 0.5, 25.0);
+    cv::Mat darker;  // the pictures share their pixels with other tests
+    pictures[k].gray.convertTo(darker, CV_8U, 0.5, 25.0);
+    pictures[k].gray = darker;
   }
   const Accuracy found = accuracy(track(pictures), TrackScene());
   EXPECT_GT(static_cast<double>(found.points),
@@ -293,7 +295,7 @@ TEST(TrackPoints, AnotherSizeOrTimeGoingBackStartsAnewAndWhatWaitedComesOut) {
 TEST(TrackPoints, AGreyImageIsUsedAndGivesNothing) {
   std::vector<TrackPicture> pictures = sideways();
   for (TrackPicture& picture : pictures) {
-    picture.gray.setTo(90);
+    picture.gray = cv::Mat(picture.gray.size(), CV_8UC1, cv::Scalar(90));
   }
   const Tracked tracked = track(pictures);
   EXPECT_EQ(tracked.points(), 0U);

@@ -57,6 +57,9 @@ class TransformQueue {
   ros::WallTimer timer_;
 };
 
+/// tf2 knows no leading slash, but old drivers still send it.
+std::string without_slash(const std::string& frame_id);
+
 /// One sentence for a pose that tf does not know: both frames, the stamp, what tf knows of the
 /// chain between them, and what to do. `error` is tf's own text.
 std::string explain_missing_transform(const tf2_ros::Buffer& buffer,
