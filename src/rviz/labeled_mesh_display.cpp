@@ -163,6 +163,10 @@ void LabeledMeshDisplay::update_topic() {
   since_report_ = kReportInterval;
 }
 
+Eigen::AlignedBox3d LabeledMeshDisplay::box_in_view(const Ogre::Camera& camera) const {
+  return view_ ? view_->box_in_view(camera) : Eigen::AlignedBox3d();
+}
+
 MeshLook LabeledMeshDisplay::look() const {
   MeshLook look;
   look.mode = static_cast<ColorMode>(mode_->getOptionInt());

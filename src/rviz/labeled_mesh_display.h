@@ -30,6 +30,13 @@ class LabeledMeshDisplay : public rviz::Display {
   void reset() override;
   void setTopic(const QString& topic, const QString& datatype) override;
 
+  // For the tools and panels beside it.
+  std::string topic() const { return topic_->getTopicStd(); }
+  const ChunkStore& store() const { return store_; }
+  const ClassTable& classes() const { return classes_; }
+  /// Of the chunks that the camera sees, in the axes of store().frame_id(); empty if there is none.
+  Eigen::AlignedBox3d box_in_view(const Ogre::Camera& camera) const;
+
  protected:
   void onInitialize() override;
   void onEnable() override;

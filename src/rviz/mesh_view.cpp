@@ -121,4 +121,14 @@ Eigen::AlignedBox3d MeshView::box() const {
   return box;
 }
 
+Eigen::AlignedBox3d MeshView::box_in_view(const Ogre::Camera& camera) const {
+  Eigen::AlignedBox3d box;
+  for (const auto& [key, shown] : shown_) {
+    if (shown.node != nullptr && camera.isVisible(shown.node->_getWorldAABB())) {
+      box.extend(shown.box);
+    }
+  }
+  return box;
+}
+
 }  // namespace facet_mapping

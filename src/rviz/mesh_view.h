@@ -12,6 +12,7 @@
 #include "chunk_renderable.h"
 #include "mesh_material.h"
 #include <Eigen/Geometry>
+#include <OgreCamera.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
@@ -41,8 +42,10 @@ class MeshView {
   std::size_t bad_facets() const;
   std::size_t chunks_with_bad_attributes() const;
   std::vector<double> area_by_slot_m2() const;
-  /// Of the mesh's own frame.
+  /// In the mesh's own frame.
   Eigen::AlignedBox3d box() const;
+  /// Of the chunks that the camera sees, in the mesh's own frame.
+  Eigen::AlignedBox3d box_in_view(const Ogre::Camera& camera) const;
 
  private:
   struct Shown {

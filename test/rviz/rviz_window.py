@@ -9,6 +9,10 @@ import tempfile
 import time
 
 import rospy
+import Xlib.display
+import Xlib.ext.xtest
+import Xlib.X
+import Xlib.XK
 from std_msgs.msg import Bool, String
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -50,6 +54,7 @@ class RvizWindow:
         self._env = dict(os.environ, DISPLAY=self._display, LIBGL_ALWAYS_SOFTWARE="1",
                          QT_X11_NO_MITSHM="1", ROS_MASTER_URI=master_uri,
                          HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name)
+        self._screen = None
         self._log = open(os.path.join(self._folder.name, "rviz.log"), "wb")
         self.rviz = None
 
@@ -96,6 +101,29 @@ class RvizWindow:
             subprocess.run(["convert", "ppm:-", path], input=ppm, check=True)
         return Picture(ppm)
 
+    def click(self, column, row, button=1):
+        """At a pixel of the screen."""
+        screen = self._connect()
+        Xlib.ext.xtest.fake_input(screen, Xlib.X.MotionNotify, x=column, y=row)
+        for kind in (Xlib.X.ButtonPress, Xlib.X.ButtonRelease):
+            screen.sync()
+            time.sleep(0.1)  # rviz takes both from its event queue, one per turn
+            Xlib.ext.xtest.fake_input(screen, kind, button)
+        screen.sync()
+
+    def press(self, key):
+        """A key by its X name, such as "i" or "Return"."""
+        screen = self._connect()
+        code = screen.keysym_to_keycode(Xlib.XK.string_to_keysym(key))
+        for kind in (Xlib.X.KeyPress, Xlib.X.KeyRelease):
+            Xlib.ext.xtest.fake_input(screen, kind, code)
+        screen.sync()
+
+    def _connect(self):
+        if self._screen is None:
+            self._screen = Xlib.display.Display(self._display)
+        return self._screen
+
     def wait_for(self, is_right, path=None):
         """The first picture that is right, or the last one taken."""
         end = time.monotonic() + TIMEOUT_S
@@ -106,6 +134,8 @@ class RvizWindow:
             time.sleep(0.3)
 
     def close(self):
+        if self._screen is not None:
+            self._screen.close()
         for process in reversed(self._processes):
             if process.poll() is None:
                 process.terminate()
