@@ -88,6 +88,8 @@ class MappingInRvizTest(unittest.TestCase):
         cls.window.start(LOOK)
 
     def setUp(self):
+        if not self.window.is_alive():
+            self.window.start(LOOK)
         call("/mapper/reset", Reset)
         self.drive.start_again()
 

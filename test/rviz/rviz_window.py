@@ -66,8 +66,8 @@ class RvizWindow:
     def __init__(self, master_uri):
         self._folder = tempfile.TemporaryDirectory()
         self._processes = []
-        self._display = self._start_screen()
-        self._env = dict(os.environ, DISPLAY=self._display, LIBGL_ALWAYS_SOFTWARE="1",
+        self.screen_name = self._start_screen()
+        self._env = dict(os.environ, DISPLAY=self.screen_name, LIBGL_ALWAYS_SOFTWARE="1",
                          QT_X11_NO_MITSHM="1", ROS_MASTER_URI=master_uri,
                          HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name)
         self._screen = None
@@ -139,9 +139,16 @@ class RvizWindow:
             Xlib.ext.xtest.fake_input(screen, kind, code)
         screen.sync()
 
+    def color_at(self, x, y):
+        """As Picture.at, of the screen as it is now: far faster than a picture."""
+        column, row = self.view.pixel_of(x, y)
+        root = self._connect().screen().root
+        data = root.get_image(column, row, 1, 1, Xlib.X.ZPixmap, 0xffffffff).data
+        return data[2], data[1], data[0]
+
     def _connect(self):
         if self._screen is None:
-            self._screen = Xlib.display.Display(self._display)
+            self._screen = Xlib.display.Display(self.screen_name)
         return self._screen
 
     def wait_for(self, is_right, path=None):
