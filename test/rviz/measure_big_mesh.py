@@ -92,17 +92,8 @@ def configure(window, kind):
         window.write_config = lambda properties="": window.written
 
 
-def main():
-    kind, cells = sys.argv[1:3]
-    rospy.init_node("measure_big_mesh")
-    window = rviz_window.RvizWindow(rosgraph.get_master_uri())
-    window.view = rviz_window.View(scale=5)
-    configure(window, kind)
-    window.start()
-    time.sleep(5)
+def measure(window, publisher, kind):
     idle = memory_mb(window.rviz)
-    publisher = subprocess.Popen([roslib.packages.find_node("facet_mapping", "big_mesh")[0], kind,
-                                  cells], stdout=subprocess.PIPE, text=True)
     line = publisher.stdout.readline()
     start = float(line.split()[1].rstrip(","))
     seen = wait_for(lambda: all(window.color_at(*corner) != BACKGROUND for corner in CORNERS)) - start
@@ -111,11 +102,28 @@ def main():
         kind, line.strip(), seen, idle, memory_mb(window.rviz), memory_mb(window.rviz, "VmHWM")))
     if kind == "mesh":
         measure_toggling(window)
-    if len(sys.argv) > 3:
-        window.picture(sys.argv[3])
-    publisher.terminate()
-    publisher.wait()
-    window.close()
+
+
+def main():
+    kind, cells = sys.argv[1:3]
+    rospy.init_node("measure_big_mesh")
+    window = rviz_window.RvizWindow(rosgraph.get_master_uri())
+    publisher = None
+    try:
+        window.view = rviz_window.View(scale=5)
+        configure(window, kind)
+        window.start()
+        time.sleep(5)
+        publisher = subprocess.Popen([roslib.packages.find_node("facet_mapping", "big_mesh")[0],
+                                      kind, cells], stdout=subprocess.PIPE, text=True)
+        measure(window, publisher, kind)
+        if len(sys.argv) > 3:
+            window.picture(sys.argv[3])
+    finally:
+        if publisher:
+            publisher.terminate()
+            publisher.wait()
+        window.close()
 
 
 if __name__ == "__main__":
