@@ -77,6 +77,24 @@ void ChunkRenderable::add_level(const std::vector<std::uint32_t>& indices,
   levels_.push_back(std::move(level));
 }
 
+ChunkGeometry ChunkRenderable::read_back() const {
+  ChunkGeometry geometry;
+  const auto vertices = mRenderOp.vertexData->vertexBufferBinding->getBuffer(0);
+  geometry.vertices.resize(mRenderOp.vertexData->vertexCount);
+  vertices->readData(0, vertices->getSizeInBytes(), geometry.vertices.data());
+  const Ogre::IndexData& finest = *levels_.front().indices;
+  const auto indices = finest.indexBuffer;
+  if (indices->getType() == Ogre::HardwareIndexBuffer::IT_16BIT) {
+    std::vector<std::uint16_t> short_indices(finest.indexCount);
+    indices->readData(0, indices->getSizeInBytes(), short_indices.data());
+    geometry.indices.assign(short_indices.begin(), short_indices.end());
+  } else {
+    geometry.indices.resize(finest.indexCount);
+    indices->readData(0, indices->getSizeInBytes(), geometry.indices.data());
+  }
+  return geometry;
+}
+
 float ChunkRenderable::pixels_per_metre(const Ogre::Camera& camera) const {
   const Ogre::Viewport* viewport = camera.getViewport();
   if (viewport == nullptr) {

@@ -24,6 +24,9 @@ class ChunkRenderable : public Ogre::SimpleRenderable {
   ChunkRenderable(ChunkRenderable&&) = delete;
   ChunkRenderable& operator=(ChunkRenderable&&) = delete;
 
+  /// The finest level's vertices and indices, as they lie on the graphics card. Slow.
+  ChunkGeometry read_back() const;
+
   /// Chooses the level whose loss cannot be seen from there.
   void _notifyCurrentCamera(Ogre::Camera* camera) override;
   Ogre::Real getBoundingRadius() const override { return radius_; }

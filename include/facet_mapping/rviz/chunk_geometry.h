@@ -41,6 +41,8 @@ struct ChunkGeometry {
   std::map<std::uint8_t, double> area_by_slot_m2;
   std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
   bool bad_attributes = false;  ///< an array of wrong length was taken as absent
+  bool has_confidence = false;  ///< false: each facet's is taken as full
+  bool has_views = false;       ///< false: each facet is taken as seen
 };
 
 /// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as
