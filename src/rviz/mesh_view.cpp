@@ -74,12 +74,14 @@ void MeshView::show(const BuiltChunk& chunk) {
     shown.origin = chunk.origin;
     shown.box = {chunk.origin + geometry.box.min().cast<double>(),
                  chunk.origin + geometry.box.max().cast<double>()};
-    shown.renderable = std::make_unique<ChunkRenderable>(geometry);
+    shown.renderable = std::make_unique<ChunkRenderable>(chunk.origin, geometry);
     shown.renderable->setMaterial(material_.material());
     shown.node = parent_->createChildSceneNode();
-    shown.node->setPosition(static_cast<float>(chunk.origin.x()),
-                            static_cast<float>(chunk.origin.y()),
-                            static_cast<float>(chunk.origin.z()));
+    const VertexPacking& packing = shown.renderable->packing();
+    shown.node->setPosition(static_cast<float>(packing.center().x()),
+                            static_cast<float>(packing.center().y()),
+                            static_cast<float>(packing.center().z()));
+    shown.node->setScale(Ogre::Vector3(static_cast<float>(packing.step_m())));
     shown.node->attachObject(shown.renderable.get());
   }
   facets_ += shown.facets;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A chunk as the graphics card takes it: one vertex per facet carries what belongs to the facet.
+// A chunk made ready for drawing: one vertex per facet carries what belongs to the facet.
 #pragma once
 
 #include <array>
@@ -17,14 +17,13 @@
 
 namespace facet_mapping {
 
-/// One vertex in the buffer. `normal` and `facet` are those of the one facet whose last corner it
+/// `normal` and `facet` are those of the one facet whose last corner it
 /// is: the shader takes them unblended (`flat`) from there.
 struct FacetVertex {
   std::array<float, 3> position{};      ///< relative to the chunk's origin, metres
   std::array<std::int8_t, 4> normal{};  ///< -127..127 = -1..1; zero if the facet has no area
   std::array<std::uint8_t, 4> facet{};  ///< class slot, confidence, views (at most 255), chunk
 };
-static_assert(sizeof(FacetVertex) == 20, "goes to the graphics card as it is");
 
 /// The chunk for the far view, its vertices drawn together on a grid.
 struct CoarseLevel {
