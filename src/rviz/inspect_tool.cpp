@@ -54,7 +54,7 @@ QIcon make_icon() {
   painter.setBrush(QColor(240, 220, 40));
   painter.setPen(QPen(QColor(60, 60, 60), 1.5));
   painter.drawPolygon(corners.data(), static_cast<int>(corners.size()));
-  return QIcon(picture);
+  return {picture};
 }
 
 PickRay ray_through(const rviz::ViewportMouseEvent& event) {
