@@ -131,6 +131,10 @@ class RvizWindow:
             Xlib.ext.xtest.fake_input(screen, kind, button)
         screen.sync()
 
+    def click_ground(self, x, y):
+        """The point (x, y) on the ground, in metres."""
+        self.click(*self.view.pixel_of(x, y))
+
     def press(self, key):
         """A key by its X name, such as "i" or "Return"."""
         screen = self._connect()
