@@ -69,7 +69,8 @@ def write_laps(drive, laps, path):
         lap = lap_of([pose for _, pose in steps])
         motion, seconds = Rigid(), 0.0
         for number in range(laps):
-            for topic, message, stamp, connection in bag.read_messages(return_connection_header=True):
+            messages = bag.read_messages(return_connection_header=True)
+            for topic, message, stamp, connection in messages:
                 if topic == "/tf_static" and number > 0:
                     continue
                 if topic != "/tf_static":
