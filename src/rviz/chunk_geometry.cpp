@@ -15,8 +15,11 @@ constexpr float kFarthestVertex = 1.0e6F;  // metres; beyond lies no map, and th
 
 class GeometryBuilder {
  public:
-  GeometryBuilder(const LabeledMeshChunk& chunk, ClassTable* classes)
-      : chunk_(chunk), classes_(classes), is_taken_(chunk.vertices.size(), false) {
+  GeometryBuilder(const LabeledMeshChunk& chunk, const ClassSlots& slots)
+      : chunk_(chunk),
+        slots_(slots),
+        is_taken_(chunk.vertices.size(), false),
+        ring_(chunk.vertices.size(), 0) {
     const std::size_t facets = chunk.triangles.size() / 3;
     has_labels_ = fits(chunk.labels.size(), facets);
     has_confidence_ = fits(chunk.confidence.size(), facets);
@@ -33,6 +36,7 @@ class GeometryBuilder {
       if (is_usable(v)) {
         vertex.position = {v.x, v.y, v.z};
       }
+      source_.push_back(static_cast<std::uint32_t>(geometry_.vertices.size()));
       geometry_.vertices.push_back(vertex);
     }
     geometry_.indices.reserve(chunk_.triangles.size());
@@ -40,6 +44,9 @@ class GeometryBuilder {
       add(facet);
     }
     geometry_.bad_attributes |= chunk_.triangles.size() % 3 != 0;
+    for (const std::uint32_t source : source_) {
+      geometry_.on_border.push_back(ring_[source] != 0);
+    }
     return std::move(geometry_);
   }
 
@@ -77,6 +84,7 @@ class GeometryBuilder {
     FacetVertex copy;
     copy.position = geometry_.vertices[corners[2]].position;
     geometry_.vertices.push_back(copy);
+    source_.push_back(corners[2]);
     corners[2] = static_cast<std::uint32_t>(geometry_.vertices.size() - 1);
     return corners;
   }
@@ -85,7 +93,7 @@ class GeometryBuilder {
     const Label label = has_labels_ ? chunk_.labels[facet] : kUnlabelled;
     const std::uint8_t confidence = has_confidence_ ? chunk_.confidence[facet] : 255;
     const std::uint16_t views = has_views_ ? chunk_.views[facet] : 1;
-    return {classes_->slot_of(label),
+    return {slots_.at(label),
             confidence,
             static_cast<std::uint8_t>(std::min<std::uint16_t>(views, 255)),
             chunk_code_};
@@ -104,6 +112,9 @@ class GeometryBuilder {
     for (const std::uint32_t corner : given) {
       geometry_.box.extend(point(corner));
     }
+    for (std::size_t k = 0; k < 3; ++k) {
+      ring_[given[k]] ^= (given[(k + 1) % 3] + 1) ^ (given[(k + 2) % 3] + 1);
+    }
     const Triangle corners = with_own_last(given);
     FacetVertex& last = geometry_.vertices[corners[2]];
     last.facet = attributes(facet);
@@ -117,8 +128,12 @@ class GeometryBuilder {
   }
 
   const LabeledMeshChunk& chunk_;
-  ClassTable* classes_;
+  const ClassSlots& slots_;
   std::vector<bool> is_taken_;
+  // By given vertex: exclusive or of its neighbours in all its facets. Within the surface each
+  // neighbour comes twice and leaves nothing.
+  std::vector<std::uint32_t> ring_;
+  std::vector<std::uint32_t> source_;  // by vertex: the given one
   bool has_labels_ = false;
   bool has_confidence_ = false;
   bool has_views_ = false;
@@ -128,8 +143,8 @@ class GeometryBuilder {
 
 }  // namespace
 
-ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, ClassTable* classes) {
-  return GeometryBuilder(chunk, classes).build();
+ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, const ClassSlots& slots) {
+  return GeometryBuilder(chunk, slots).build();
 }
 
 }  // namespace facet_mapping

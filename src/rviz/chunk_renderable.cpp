@@ -15,7 +15,7 @@ namespace facet_mapping {
 namespace {
 
 constexpr std::size_t kMaxShortIndex = 65535;
-constexpr float kMaxLossPixels = 1.5F;   // by which a coarse level may differ
+constexpr float kMaxLossPixels = 2.6F;   // by which a coarse level may differ
 constexpr float kUnknownScale = 1.0e9F;  // asks for the finest level
 
 Ogre::Vector3 to_ogre(const Eigen::Vector3f& v) {

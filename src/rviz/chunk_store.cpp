@@ -38,7 +38,7 @@ void ChunkStore::drop_all_but(const LabeledMesh& message) {
   for (const LabeledMeshChunk& chunk : message.chunks) {
     kept.insert(key_of(chunk));
   }
-  for (auto next = chunks_.begin(); next != chunks_.end();) {
+  for (auto next = revisions_.begin(); next != revisions_.end();) {
     const ChunkKey key = (next++)->first;
     if (kept.count(key) == 0) {
       remove(key);
@@ -47,30 +47,30 @@ void ChunkStore::drop_all_but(const LabeledMesh& message) {
 }
 
 void ChunkStore::remove(const ChunkKey& key) {
-  if (chunks_.erase(key) > 0) {
+  if (revisions_.erase(key) > 0) {
     removed_.insert(key);
   }
-  changed_.erase(key);
+  due_.erase(key);
 }
 
 void ChunkStore::replace(LabeledMeshChunk chunk, bool is_same_map) {
   const ChunkKey key = key_of(chunk);
-  const auto known = chunks_.find(key);
-  if (is_same_map && known != chunks_.end() && known->second.revision == chunk.revision) {
+  const auto known = revisions_.find(key);
+  if (is_same_map && known != revisions_.end() && known->second == chunk.revision) {
     return;
   }
-  chunks_[key] = std::move(chunk);
-  changed_.insert(key);
+  revisions_[key] = chunk.revision;
+  due_[key] = std::move(chunk);
   removed_.erase(key);
 }
 
-const LabeledMeshChunk* ChunkStore::take_changed() {
-  if (changed_.empty()) {
-    return nullptr;
+std::optional<LabeledMeshChunk> ChunkStore::take_changed() {
+  if (due_.empty()) {
+    return std::nullopt;
   }
-  const ChunkKey key = *changed_.begin();
-  changed_.erase(changed_.begin());
-  return &chunks_.at(key);
+  LabeledMeshChunk chunk = std::move(due_.begin()->second);
+  due_.erase(due_.begin());
+  return chunk;
 }
 
 std::optional<ChunkKey> ChunkStore::take_removed() {
@@ -82,17 +82,9 @@ std::optional<ChunkKey> ChunkStore::take_removed() {
   return key;
 }
 
-std::size_t ChunkStore::facets() const {
-  std::size_t facets = 0;
-  for (const auto& [key, chunk] : chunks_) {
-    facets += chunk.triangles.size() / 3;
-  }
-  return facets;
-}
-
 void ChunkStore::clear() {
   std::set<ChunkKey> removed = std::move(removed_);
-  for (const auto& [key, chunk] : chunks_) {
+  for (const auto& [key, revision] : revisions_) {
     removed.insert(key);
   }
   *this = ChunkStore();

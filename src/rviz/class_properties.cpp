@@ -38,7 +38,7 @@ void ClassProperties::add(const ClassStyle& style) {
                                        style.visible,
                                        "Whether facets of this class are drawn.",
                                        root_,
-                                       SIGNAL(changed()),
+                                       SLOT(note_change()),
                                        this);
   entry.color = new rviz::ColorProperty("Color",
                                         to_qt(style.color),
@@ -47,7 +47,7 @@ void ClassProperties::add(const ClassStyle& style) {
                                         SLOT(note_color()),
                                         this);
   entry.alpha = new rviz::FloatProperty(
-      "Alpha", style.alpha, "0: transparent, 1: opaque.", entry.shown, SIGNAL(changed()), this);
+      "Alpha", style.alpha, "0: transparent, 1: opaque.", entry.shown, SLOT(note_change()), this);
   entry.alpha->setMin(0.0F);
   entry.alpha->setMax(1.0F);
   entry.share = new rviz::StringProperty(
@@ -64,7 +64,8 @@ void ClassProperties::load_entry(const ClassStyle& style, Entry* entry) {
     return;
   }
   entry->shown->load(config);
-  entry->has_own_color = from_qt(entry->color->getColor()) != style.color;
+  entry->has_own_color =
+      config.mapGetChild("Color").isValid() && from_qt(entry->color->getColor()) != style.color;
 }
 
 bool ClassProperties::update(ClassTable* classes) {
@@ -112,6 +113,12 @@ void ClassProperties::show_or_hide_all() {
   }
   is_updating_ = false;
   Q_EMIT changed();
+}
+
+void ClassProperties::note_change() {
+  if (!is_updating_) {
+    Q_EMIT changed();
+  }
 }
 
 void ClassProperties::note_color() {

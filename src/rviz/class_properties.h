@@ -39,6 +39,7 @@ class ClassProperties : public QObject {
 
  private Q_SLOTS:
   void show_or_hide_all();
+  void note_change();
   void note_color();
 
  private:  // NOLINT(readability-redundant-access-specifiers): ends the slots for moc

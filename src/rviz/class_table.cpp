@@ -66,6 +66,16 @@ std::uint8_t ClassTable::slot_of(Label id) {
   return slot;
 }
 
+ClassSlots ClassTable::slots_of(const std::vector<Label>& labels) {
+  ClassSlots slots{{kUnlabelled, 0}};
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (k == 0 || labels[k] != labels[k - 1]) {  // runs of one class are long
+      slots.emplace(labels[k], slot_of(labels[k]));
+    }
+  }
+  return slots;
+}
+
 void ClassTable::set_palette(const ClassPalette& palette) {
   for (const PaletteClass& entry : palette.classes) {
     ClassStyle& style = styles_[slot_of(entry.id)];

@@ -260,8 +260,12 @@ void LabeledMeshDisplay::update_height_range() {
   max_height_->setFloat(static_cast<float>(base + box.max().z()));
 }
 
+std::size_t LabeledMeshDisplay::waiting() const {
+  return store_.waiting() + view_->waiting();
+}
+
 void LabeledMeshDisplay::report() {
-  if (is_shape_new_ && store_.waiting() == 0) {
+  if (is_shape_new_ && waiting() == 0) {
     is_shape_new_ = false;
     if (view_->drawn() > drawn_before_ + kManyFacets) {
       drawn_before_ = view_->drawn();
@@ -292,10 +296,10 @@ void LabeledMeshDisplay::report_mesh() {
   }
   QString text = QString("%1 facets in %2 chunks, sequence %3")
                      .arg(view_->facets())
-                     .arg(store_.chunks().size())
+                     .arg(store_.size())
                      .arg(store_.sequence());
-  if (store_.waiting() > 0) {
-    text += QString(", %1 chunks still to draw").arg(store_.waiting());
+  if (waiting() > 0) {
+    text += QString(", %1 chunks still to draw").arg(waiting());
   } else if (view_->facets() == 0) {
     text = "the mesh is empty";
   }

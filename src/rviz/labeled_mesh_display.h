@@ -55,6 +55,7 @@ class LabeledMeshDisplay : public rviz::Display {
   void place();
   void update_height_range();
   void show_new_classes();
+  std::size_t waiting() const;  // chunks
   void report();
   void report_mesh();
   void report_faults();

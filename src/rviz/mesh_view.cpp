@@ -3,16 +3,13 @@
 #include "mesh_view.h"
 
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 namespace facet_mapping {
 namespace {
 
-bool is_finite(const geometry_msgs::Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
+constexpr std::size_t kMaxUnderWay = 64;  // bounds the memory of chunks that are ready
 
 }  // namespace
 
@@ -29,49 +26,61 @@ bool MeshView::update(ChunkStore* store, ClassTable* classes, double seconds) {
   const Clock::time_point start = Clock::now();
   bool is_changed = false;
   while (const std::optional<ChunkKey> key = store->take_removed()) {
+    newest_.erase(*key);
     hide(*key);
     is_changed = true;
   }
-  while (const LabeledMeshChunk* chunk = store->take_changed()) {
-    show(*chunk, classes);
-    is_changed = true;
-    if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) {
+  submit_changed(store, classes);
+  while (std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
+    const std::optional<BuiltChunk> built = builder_.take();
+    if (!built) {
       break;
     }
+    const auto newest = newest_.find(built->key);
+    if (newest != newest_.end() && newest->second == built->ticket) {
+      newest_.erase(newest);
+      show(*built);
+      is_changed = true;
+    }
+    submit_changed(store, classes);
   }
   return is_changed;
 }
 
-void MeshView::show(const LabeledMeshChunk& chunk, ClassTable* classes) {
-  const ChunkKey key{chunk.key[0], chunk.key[1], chunk.key[2]};
-  hide(key);
-  Shown shown;
-  if (!is_finite(chunk.origin)) {
-    shown.bad_facets = chunk.triangles.size() / 3;
-    shown_[key] = std::move(shown);
-    return;
+void MeshView::submit_changed(ChunkStore* store, ClassTable* classes) {
+  while (builder_.under_way() < kMaxUnderWay) {
+    std::optional<LabeledMeshChunk> chunk = store->take_changed();
+    if (!chunk) {
+      return;
+    }
+    newest_[{chunk->key[0], chunk->key[1], chunk->key[2]}] = ++tickets_;
+    ClassSlots slots = classes->slots_of(chunk->labels);
+    builder_.submit(std::move(*chunk), std::move(slots), tickets_);
   }
-  ChunkGeometry geometry = make_chunk_geometry(chunk, classes);
-  add_coarse_levels(&geometry);
+}
+
+void MeshView::show(const BuiltChunk& chunk) {
+  hide(chunk.key);
+  const ChunkGeometry& geometry = chunk.geometry;
+  Shown shown;
   shown.facets = geometry.indices.size() / 3;
   shown.bad_facets = geometry.bad_facets;
   shown.bad_attributes = geometry.bad_attributes;
   shown.area_by_slot_m2 = geometry.area_by_slot_m2;
   if (shown.facets > 0) {
-    const Eigen::Vector3d origin(chunk.origin.x, chunk.origin.y, chunk.origin.z);
-    shown.box = {origin + geometry.box.min().cast<double>(),
-                 origin + geometry.box.max().cast<double>()};
+    shown.box = {chunk.origin + geometry.box.min().cast<double>(),
+                 chunk.origin + geometry.box.max().cast<double>()};
     shown.renderable = std::make_unique<ChunkRenderable>(geometry);
     shown.renderable->setMaterial(material_.material());
     shown.node = parent_->createChildSceneNode();
-    shown.node->setPosition(static_cast<float>(origin.x()),
-                            static_cast<float>(origin.y()),
-                            static_cast<float>(origin.z()));
+    shown.node->setPosition(static_cast<float>(chunk.origin.x()),
+                            static_cast<float>(chunk.origin.y()),
+                            static_cast<float>(chunk.origin.z()));
     shown.node->attachObject(shown.renderable.get());
   }
   facets_ += shown.facets;
   drawn_ += shown.facets;
-  shown_[key] = std::move(shown);
+  shown_[chunk.key] = std::move(shown);
 }
 
 void MeshView::hide(const ChunkKey& key) {

@@ -16,6 +16,7 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
+#include "facet_mapping/rviz/chunk_builder.h"
 #include "facet_mapping/rviz/chunk_store.h"
 #include "facet_mapping/rviz/class_table.h"
 
@@ -31,9 +32,11 @@ class MeshView {
   MeshView(MeshView&&) = delete;
   MeshView& operator=(MeshView&&) = delete;
 
-  /// Takes away what is gone and draws changed chunks anew until the time is over, at least one.
-  /// True if anything changed.
+  /// Takes away what is gone, has changed chunks made anew and uploads those that are ready until
+  /// the time is over. True if anything changed on the screen.
   bool update(ChunkStore* store, ClassTable* classes, double seconds);
+  /// Taken from the store, but not yet on the screen.
+  std::size_t waiting() const { return builder_.under_way(); }
 
   MeshMaterial& material() { return material_; }
   std::size_t facets() const { return facets_; }
@@ -58,12 +61,16 @@ class MeshView {
     bool bad_attributes = false;
   };
 
-  void show(const LabeledMeshChunk& chunk, ClassTable* classes);
+  void submit_changed(ChunkStore* store, ClassTable* classes);
+  void show(const BuiltChunk& chunk);
   void hide(const ChunkKey& key);
 
   Ogre::SceneNode* parent_;
   MeshMaterial material_;
   std::map<ChunkKey, Shown> shown_;
+  ChunkBuilder builder_;
+  std::map<ChunkKey, std::uint64_t> newest_;  // ticket of those under way, unless gone meanwhile
+  std::uint64_t tickets_ = 0;
   std::size_t facets_ = 0;
   std::size_t drawn_ = 0;
 };

@@ -3,8 +3,11 @@
 #include "facet_mapping/rviz/chunk_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "chunk_messages.h"
 #include <gtest/gtest.h>
@@ -39,6 +42,10 @@ LabeledMeshChunk wavy_field(std::uint32_t cells) {
   return chunk;
 }
 
+ChunkGeometry geometry_of(const LabeledMeshChunk& chunk, ClassTable* classes) {
+  return make_chunk_geometry(chunk, classes->slots_of(chunk.labels));
+}
+
 std::array<float, 3> given_point(const LabeledMeshChunk& chunk, std::size_t corner) {
   const geometry_msgs::Point32& v = chunk.vertices[chunk.triangles[corner]];
   return {v.x, v.y, v.z};
@@ -47,7 +54,7 @@ std::array<float, 3> given_point(const LabeledMeshChunk& chunk, std::size_t corn
 TEST(ChunkGeometry, EveryFacetKeepsItsCornersTurnSenseAndAttributes) {
   const LabeledMeshChunk chunk = wavy_field(12);
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  const ChunkGeometry geometry = geometry_of(chunk, &classes);
   ASSERT_EQ(geometry.indices.size(), chunk.triangles.size());
   std::set<std::uint32_t> last_corners;
   for (std::size_t k = 0; k < chunk.triangles.size(); k += 3) {
@@ -71,13 +78,13 @@ TEST(ChunkGeometry, EveryFacetKeepsItsCornersTurnSenseAndAttributes) {
 TEST(ChunkGeometry, NeedsAboutOneVertexPerFacet) {
   const LabeledMeshChunk chunk = wavy_field(40);
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  const ChunkGeometry geometry = geometry_of(chunk, &classes);
   EXPECT_LT(geometry.vertices.size(), geometry.indices.size() / 3 * 11 / 10);
 }
 
 TEST(ChunkGeometry, CarriesAttributesNormalsAndAreas) {
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(unit_square(0), &classes);
+  const ChunkGeometry geometry = geometry_of(unit_square(0), &classes);
   ASSERT_EQ(geometry.indices.size(), 6U);
   const FacetVertex& first = geometry.vertices[geometry.indices[2]];
   const FacetVertex& second = geometry.vertices[geometry.indices[5]];
@@ -96,17 +103,17 @@ TEST(ChunkGeometry, LeavesOutFacetsThatNobodyCanDraw) {
   LabeledMeshChunk chunk = unit_square(0);
   chunk.vertices[3].z = kNan;
   ClassTable classes;
-  ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  ChunkGeometry geometry = geometry_of(chunk, &classes);
   EXPECT_EQ(geometry.indices.size(), 3U);
   EXPECT_EQ(geometry.bad_facets, 1U);
   chunk.triangles = {0, 1, 4, 0, 1, 4000000000U};
-  geometry = make_chunk_geometry(chunk, &classes);
+  geometry = geometry_of(chunk, &classes);
   EXPECT_TRUE(geometry.indices.empty());
   EXPECT_EQ(geometry.bad_facets, 2U);
   EXPECT_TRUE(geometry.box.isEmpty());
   chunk = unit_square(0);
   chunk.vertices[0].x = 1.0e30F;
-  EXPECT_EQ(make_chunk_geometry(chunk, &classes).bad_facets, 2U);
+  EXPECT_EQ(geometry_of(chunk, &classes).bad_facets, 2U);
 }
 
 TEST(ChunkGeometry, TakesArraysOfWrongLengthAsAbsent) {
@@ -115,7 +122,7 @@ TEST(ChunkGeometry, TakesArraysOfWrongLengthAsAbsent) {
   chunk.confidence.pop_back();
   chunk.views.clear();
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  const ChunkGeometry geometry = geometry_of(chunk, &classes);
   EXPECT_TRUE(geometry.bad_attributes);
   const std::array<std::uint8_t, 4> facet = geometry.vertices[geometry.indices[2]].facet;
   EXPECT_EQ(facet[0], 0);
@@ -129,7 +136,7 @@ TEST(ChunkGeometry, AbsentArraysAreNoFault) {
   chunk.confidence.clear();
   chunk.views.clear();
   ClassTable classes;
-  EXPECT_FALSE(make_chunk_geometry(chunk, &classes).bad_attributes);
+  EXPECT_FALSE(geometry_of(chunk, &classes).bad_attributes);
 }
 
 TEST(ChunkGeometry, AFacetWithoutAreaHasNoNormal) {
@@ -137,14 +144,14 @@ TEST(ChunkGeometry, AFacetWithoutAreaHasNoNormal) {
   chunk.triangles = {0, 0, 1};
   chunk.labels = {1};
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  const ChunkGeometry geometry = geometry_of(chunk, &classes);
   ASSERT_EQ(geometry.indices.size(), 3U);
   EXPECT_EQ(geometry.vertices[geometry.indices[2]].normal, (std::array<std::int8_t, 4>{}));
 }
 
 TEST(ChunkGeometry, AnEmptyChunkIsEmpty) {
   ClassTable classes;
-  const ChunkGeometry geometry = make_chunk_geometry(LabeledMeshChunk(), &classes);
+  const ChunkGeometry geometry = geometry_of(LabeledMeshChunk(), &classes);
   EXPECT_TRUE(geometry.vertices.empty());
   EXPECT_EQ(geometry.bad_facets, 0U);
 }
@@ -157,12 +164,12 @@ TEST(CoarseLevels, MoveNothingFartherThanTheirCellAndKeepClasses) {
     v.z *= 0.1F;
   }
   ClassTable classes;
-  ChunkGeometry geometry = make_chunk_geometry(chunk, &classes);
+  ChunkGeometry geometry = geometry_of(chunk, &classes);
   const std::size_t fine_vertices = geometry.vertices.size();
   const std::vector<std::uint32_t> fine_indices = geometry.indices;
-  add_coarse_levels(&geometry);
+  add_coarse_levels(Eigen::Vector3d::Zero(), &geometry);
   EXPECT_EQ(geometry.indices, fine_indices);
-  ASSERT_EQ(geometry.levels.size(), 2U);
+  ASSERT_GE(geometry.levels.size(), 2U);
   EXPECT_LT(geometry.vertices.size(), 2 * fine_vertices);
   std::size_t finer = fine_indices.size();
   for (const CoarseLevel& level : geometry.levels) {
@@ -183,13 +190,85 @@ TEST(CoarseLevels, MoveNothingFartherThanTheirCellAndKeepClasses) {
   }
 }
 
+/// Positions of the corners of edges that only one facet has.
+std::multiset<std::array<double, 3>> border_of(const ChunkGeometry& geometry,
+                                               const std::vector<std::uint32_t>& indices,
+                                               const Eigen::Vector3d& origin) {
+  using Place = std::array<double, 3>;
+  std::map<std::pair<Place, Place>, int> edges;
+  const auto place = [&](std::uint32_t vertex) {
+    const std::array<float, 3>& p = geometry.vertices[vertex].position;
+    return Place{origin.x() + p[0], origin.y() + p[1], origin.z() + p[2]};
+  };
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Place a = place(indices[k]);
+    const Place b = place(indices[k % 3 == 2 ? k - 2 : k + 1]);
+    ++edges[std::minmax(a, b)];
+  }
+  std::multiset<Place> border;
+  for (const auto& [edge, count] : edges) {
+    if (count == 1) {
+      border.insert(edge.first);
+      border.insert(edge.second);
+    }
+  }
+  return border;
+}
+
+/// One wavy field of 4 m, cut along a jagged line into two chunks whose origins are no whole cells
+/// apart.
+std::array<LabeledMeshChunk, 2> torn_field() {
+  const LabeledMeshChunk field = wavy_field(40);
+  std::array<LabeledMeshChunk, 2> halves;
+  halves[1].origin.x = 1.9;
+  for (std::size_t k = 0; k < field.triangles.size(); ++k) {
+    const std::uint32_t column = field.triangles[k - k % 3] % 41;
+    LabeledMeshChunk& half = halves[column >= 21 + (k / 3) % 2 ? 1 : 0];
+    geometry_msgs::Point32 v = field.vertices[field.triangles[k]];
+    v.x = 0.1F * v.x - static_cast<float>(half.origin.x);
+    v.y *= 0.1F;
+    v.z *= 0.1F;
+    const auto is_same = [&v](const geometry_msgs::Point32& other) {
+      return other.x == v.x && other.y == v.y;
+    };
+    const auto known = std::find_if(half.vertices.begin(), half.vertices.end(), is_same);
+    half.triangles.push_back(static_cast<std::uint32_t>(known - half.vertices.begin()));
+    if (known == half.vertices.end()) {
+      half.vertices.push_back(v);
+    }
+  }
+  return halves;
+}
+
+TEST(CoarseLevels, ChunksSideBySideStayJoined) {
+  const std::array<LabeledMeshChunk, 2> halves = torn_field();
+  ClassTable classes;
+  std::array<std::vector<std::set<std::pair<int, int>>>, 2> seams;  // millimetres, by level
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eigen::Vector3d origin(halves[side].origin.x, 0.0, 0.0);
+    ChunkGeometry geometry = geometry_of(halves[side], &classes);
+    add_coarse_levels(origin, &geometry);
+    ASSERT_GE(geometry.levels.size(), 2U);
+    for (std::size_t level = 0; level < 2; ++level) {
+      seams[side].emplace_back();
+      for (const auto& p : border_of(geometry, geometry.levels[level].indices, origin)) {
+        if (p[0] > 1.0 && p[0] < 3.0 && p[1] > 0.6 && p[1] < 3.4) {
+          seams[side].back().emplace(std::lround(1000.0 * p[0]), std::lround(1000.0 * p[1]));
+        }
+      }
+      EXPECT_FALSE(seams[side].back().empty());
+    }
+  }
+  EXPECT_EQ(seams[0], seams[1]);
+}
+
 TEST(CoarseLevels, AreLeftOutWhereTheyGainNothing) {
   ClassTable classes;
-  ChunkGeometry geometry = make_chunk_geometry(unit_square(0), &classes);
-  add_coarse_levels(&geometry);
+  ChunkGeometry geometry = geometry_of(unit_square(0), &classes);
+  add_coarse_levels(Eigen::Vector3d::Zero(), &geometry);
   EXPECT_TRUE(geometry.levels.empty());
   ChunkGeometry empty;
-  add_coarse_levels(&empty);
+  add_coarse_levels(Eigen::Vector3d::Zero(), &empty);
   EXPECT_TRUE(empty.levels.empty());
 }
 
@@ -197,7 +276,7 @@ TEST(ChunkGeometry, UnknownClassesAreMetOnceEach) {
   ClassTable classes;
   LabeledMeshChunk chunk = unit_square(0);
   chunk.labels = {60000, 60000};
-  make_chunk_geometry(chunk, &classes);
+  geometry_of(chunk, &classes);
   EXPECT_EQ(classes.styles().size(), 2U);
 }
 

@@ -35,10 +35,17 @@ class Mapper:
     def __init__(self):
         self.full = mesh_messages.mesh(mesh_messages.four_fields())
         self.calls = 0
-        self._palette = rospy.Publisher("/mapper/palette", ClassPalette, latch=True, queue_size=1)
-        self._palette.publish(mesh_messages.palette())
+        self._palette = None
+        self.show_palette()
         self._mesh = rospy.Publisher("/mapper/mesh", LabeledMesh, self, queue_size=10)
         self._service = rospy.Service("/mapper/get_mesh", GetMesh, self.answer)
+
+    def show_palette(self):
+        self._palette = rospy.Publisher("/mapper/palette", ClassPalette, latch=True, queue_size=1)
+        self._palette.publish(mesh_messages.palette())
+
+    def hide_palette(self):
+        self._palette.unregister()
 
     def peer_subscribe(self, _topic, _publish, publish_to_peer):
         publish_to_peer(self.full)
@@ -92,6 +99,16 @@ class LabeledMeshDisplayTest(unittest.TestCase):
     def test_a_class_recolored_and_translucent(self):
         self.window.load("Classes:\n  Value: true\n  road:\n    Color: 10; 200; 30\n    Value: true\n"
                          "  car:\n    Alpha: 0.5\n    Value: true")
+        half = tuple((a + b) / 2 for a, b in zip(COLORS[3], BACKGROUND))
+        self.expect({**COLORS, 0: (10, 200, 30), 3: half})
+
+    def test_a_palette_that_comes_late_gives_colors_but_keeps_what_was_chosen(self):
+        self.mapper.hide_palette()
+        self.window.load("Classes:\n  Value: true\n  road:\n    Color: 10; 200; 30\n    Value: true\n"
+                         "  car:\n    Alpha: 0.5\n    Value: true")
+        unknown = (255, 0, 255)
+        self.expect({0: unknown, 1: unknown, 3: unknown})
+        self.mapper.show_palette()
         half = tuple((a + b) / 2 for a, b in zip(COLORS[3], BACKGROUND))
         self.expect({**COLORS, 0: (10, 200, 30), 3: half})
 

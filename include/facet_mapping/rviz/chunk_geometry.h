@@ -35,18 +35,20 @@ struct CoarseLevel {
 struct ChunkGeometry {
   std::vector<FacetVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three per facet, counter-clockwise from free space
-  std::vector<CoarseLevel> levels;     ///< from fine to coarse, each at most half of the one before
-  Eigen::AlignedBox3f box;  ///< of what is drawn, relative to the origin; empty if nothing
+  std::vector<bool> on_border;  ///< of the chunk's surface: per vertex, those of levels excepted
+  std::vector<CoarseLevel> levels;  ///< from fine to coarse, each at most half of the one before
+  Eigen::AlignedBox3f box;          ///< of what is drawn, relative to the origin; empty if nothing
   std::map<std::uint8_t, double> area_by_slot_m2;
   std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
   bool bad_attributes = false;  ///< an array of wrong length was taken as absent
 };
 
 /// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as
-/// long as each has one of its own to be last.
-ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, ClassTable* classes);
+/// long as each has one of its own to be last. `slots`: of the chunk's labels.
+ChunkGeometry make_chunk_geometry(const LabeledMeshChunk& chunk, const ClassSlots& slots);
 
-/// Fills `levels`, and appends the vertices that they need.
-void add_coarse_levels(ChunkGeometry* geometry);
+/// Fills `levels`, and appends the vertices that they need. Chunks side by side stay joined: they
+/// draw their common border together in the same way. `origin`: of the chunk, metres.
+void add_coarse_levels(const Eigen::Vector3d& origin, ChunkGeometry* geometry);
 
 }  // namespace facet_mapping

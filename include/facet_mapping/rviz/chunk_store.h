@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The chunks of a mesh as a display holds them, and which of them it has yet to draw anew.
+// Which chunks of a mesh a display has, and the content of those that it has yet to draw anew.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace facet_mapping {
 
-/// Keeps messages' chunks as they came, bad ones included: make_chunk_geometry copes with those.
+/// Hands each chunk out once: what is drawn lies on the graphics card and need not lie here, too.
+/// Chunks are kept as they came, bad ones included: make_chunk_geometry copes with those.
 class ChunkStore {
  public:
   using Result = MeshSequence::Result;
@@ -27,13 +28,13 @@ class ChunkStore {
   Result apply(LabeledMesh&& message);
 
   /// The next chunk to draw anew, which is then no longer due; nothing if all are drawn.
-  const LabeledMeshChunk* take_changed();
+  std::optional<LabeledMeshChunk> take_changed();
   /// A chunk that is gone and not yet taken off the screen.
   std::optional<ChunkKey> take_removed();
-  std::size_t waiting() const { return changed_.size(); }
+  std::size_t waiting() const { return due_.size(); }
 
-  const std::map<ChunkKey, LabeledMeshChunk>& chunks() const { return chunks_; }
-  std::size_t facets() const;
+  /// Number of chunks, drawn or not.
+  std::size_t size() const { return revisions_.size(); }
   bool has_mesh() const { return state_.has_mesh(); }
   const std::string& frame_id() const { return state_.frame_id(); }
   const std::string& map_id() const { return state_.map_id(); }
@@ -46,8 +47,8 @@ class ChunkStore {
   void remove(const ChunkKey& key);
   void replace(LabeledMeshChunk chunk, bool is_same_map);
 
-  std::map<ChunkKey, LabeledMeshChunk> chunks_;
-  std::set<ChunkKey> changed_;
+  std::map<ChunkKey, std::uint32_t> revisions_;  // of all chunks
+  std::map<ChunkKey, LabeledMeshChunk> due_;
   std::set<ChunkKey> removed_;
   MeshSequence state_;
 };

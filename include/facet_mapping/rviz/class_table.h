@@ -19,6 +19,9 @@ namespace facet_mapping {
 /// Red, green, blue, 0..255.
 using Rgb = std::array<std::uint8_t, 3>;
 
+/// Where the classes of a chunk stand in a ClassTable.
+using ClassSlots = std::map<Label, std::uint8_t>;
+
 struct ClassStyle {
   Label id = kUnlabelled;
   std::string name;
@@ -40,6 +43,8 @@ class ClassTable {
 
   /// The slot of a class, made if new. All classes beyond the last slot share it.
   std::uint8_t slot_of(Label id);
+  /// Of all labels, and of unlabelled facets.
+  ClassSlots slots_of(const std::vector<Label>& labels);
   /// Takes names and colours; visibility and opacity stay.
   void set_palette(const ClassPalette& palette);
 
@@ -54,7 +59,7 @@ class ClassTable {
 
  private:
   std::vector<ClassStyle> styles_;
-  std::map<Label, std::uint8_t> slots_;
+  ClassSlots slots_;
 };
 
 /// From dark blue (0) over green to yellow (1); values outside are clamped.
