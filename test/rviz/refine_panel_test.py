@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: facet_mapping contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel in a real rviz beside a stand-in for the refiner. It is driven through its keyboard
-shortcuts (Alt and the underlined letter), which hold wherever a font puts the widgets. With
-FACET_MAPPING_PICTURES=FOLDER the pictures are kept."""
+"""The panel in a real rviz beside a stand-in for the refiner. With FACET_MAPPING_PICTURES=FOLDER the
+pictures are kept."""
 import os
 import pathlib
 import queue
@@ -21,39 +20,14 @@ from facet_mapping.srv import RefineRequest, RefineResponse
 import mesh_messages
 import refine_node
 import rviz_window
+from refine_window import (ANSWER, PLOT, RefineWindow, bar_length, is_bad, is_good, is_near,
+                           is_photometric, is_semantic, like)
 
 PICTURES = os.environ.get("FACET_MAPPING_PICTURES")
 TIMEOUT_S = rviz_window.TIMEOUT_S
-PANEL = range(0, 400)      # columns that hold the panel
-ANSWER = range(500, 800)   # rows that hold the answer, below the fields and most of the plot
-PLOT = range(400, 720)
+VIEW = {"columns": range(400, 1280, 8), "rows": range(0, 800, 8)}
+ROAD, VEGETATION = (mesh_messages.CLASSES[number][1] for number in (0, 2))
 REGION_MARGIN_M = 0.01
-
-
-def is_photometric(red, green, blue):
-    return abs(red - 230) < 5 and abs(green - 120) < 5 and blue < 5
-
-
-def is_semantic(red, green, blue):
-    return abs(red - 30) < 5 and abs(green - 110) < 5 and abs(blue - 220) < 5
-
-
-def is_red(red, green, blue):
-    return abs(red - 200) < 5 and abs(green - 40) < 5 and abs(blue - 40) < 5
-
-
-def is_green(red, green, blue):
-    return abs(red - 30) < 5 and abs(green - 140) < 5 and abs(blue - 60) < 5
-
-
-def is_bar(red, green, blue):
-    return red < 100 and 100 < green < 190 and blue > 180
-
-
-def bar_length(picture):
-    """Of the progress bar's filled part, in pixels: no other row holds as many of its colour."""
-    rows = [row for _, row in picture.like(is_bar, PANEL)]
-    return max((rows.count(row) for row in set(rows)), default=0)
 
 
 class RefinePanelTest(unittest.TestCase):
@@ -68,23 +42,12 @@ class RefinePanelTest(unittest.TestCase):
         cls.mesh.publish(mesh_messages.mesh(mesh_messages.four_fields()))
         cls.node = refine_node.RefineNode("/refiner")
         cls.addClassCleanup(cls.node.may_answer.set)
-        cls.window = rviz_window.RvizWindow(rosgraph.get_master_uri(), "refine_panel.rviz")
+        cls.window = RefineWindow(rosgraph.get_master_uri())
         cls.addClassCleanup(cls.window.close)
         cls.window.start()
 
     def setUp(self):
         self.node.begin()
-
-    def press(self, letter):
-        self.window.focus()
-        time.sleep(0.2)
-        self.window.press(letter, "Alt_L")
-        time.sleep(0.2)
-
-    def fill(self, letter, text):
-        self.press(letter)
-        self.window.press("a", "Control_L")
-        self.window.type(text)
 
     def wait_for(self, is_right, name="", message="not seen"):
         path = PICTURES and os.path.join(PICTURES, self.id().split(".")[-1] + name + ".png")
@@ -97,7 +60,7 @@ class RefinePanelTest(unittest.TestCase):
         """Presses the button until the node has got the call: it is enabled when it makes sense."""
         end = time.monotonic() + TIMEOUT_S
         while time.monotonic() < end:
-            self.press(letter)
+            self.window.shortcut(letter)
             try:
                 return kept.get(timeout=2)
             except queue.Empty:
@@ -108,47 +71,45 @@ class RefinePanelTest(unittest.TestCase):
         return self.reach("r", self.node.asked)
 
     def expect_no_request(self):
-        self.press("r")
+        self.window.shortcut("r")
         with self.assertRaises(queue.Empty):
             self.node.asked.get(timeout=2)
 
     def wait_until_shown(self):
         """The four fields."""
-        self.wait_for(lambda p: p.like(lambda *rgb: rgb == (107, 142, 35), range(400, 1280, 8),
-                                       range(0, 800, 8)), "_mesh", "no mesh shown")
+        self.wait_for(lambda p: like(p, is_near(VEGETATION), **VIEW), "_mesh", "no mesh shown")
 
     def test_what_is_not_chosen_is_left_to_the_node(self):
-        self.window.load()
+        self.window.load_panel()
         request = self.refine()
         expected = RefineRequest(semantic_weight=-1, smoothing=-1, thin_plate=-1)
         self.assertEqual(request, expected)
 
     def test_dry_run(self):
-        self.window.load()
+        self.window.load_panel()
         request = self.reach("d", self.node.asked)
         self.assertTrue(request.dry_run)
         self.assertEqual(self.node.asked.qsize(), 0)
 
     def test_chosen_terms_arrive_and_are_saved(self):
-        self.window.load()
+        self.window.load_panel()
         self.wait_until_shown()
-        self.fill("l", "car, 1")
-        self.press("a")
+        self.window.fill("l", "car, 1")
+        self.window.shortcut("a")
         self.window.type("what")
-        self.press("o")
+        self.window.shortcut("o")
         self.window.type("of")
-        self.press("m")
+        self.window.shortcut("m")
         self.window.type("sp")
         for letter, text in {"v": "3", "i": "7", "w": "0.5", "t": "0.25", "b": "12.5"}.items():
-            self.fill(letter, text)
+            self.window.fill(letter, text)
         request = self.refine()
         self.assertEqual(request, RefineRequest(
             classes=[3, 1], start=RefineRequest.START_REFINED, photometric=RefineRequest.OFF,
             semantic_mode=RefineRequest.SEMANTIC_SPLIT, levels=3, iterations=7,
             custom_weights=True, semantic_weight=0.5, smoothing=0.25, thin_plate=-1,
             time_budget=12.5))
-        self.window.focus()
-        self.window.press("s", "Control_L")
+        self.window.shortcut("s", "Control_L")
         self.expect_saved(["Semantic: split", "Levels: 3", "Classes: car, 1", "Node: /refiner"])
 
     def expect_saved(self, lines):
@@ -162,7 +123,7 @@ class RefinePanelTest(unittest.TestCase):
         self.assertEqual(missing(), [])
 
     def test_saved_settings_are_loaded(self):
-        self.window.load(panel="Start from: what was refined\nPhotometric: on\nIterations: 9")
+        self.window.load_panel(panel="Start from: what was refined\nPhotometric: on\nIterations: 9")
         request = self.refine()
         self.assertEqual((request.start, request.photometric, request.iterations),
                          (RefineRequest.START_REFINED, RefineRequest.ON, 9))
@@ -176,29 +137,28 @@ class RefinePanelTest(unittest.TestCase):
 
     def test_the_visible_region_is_that_of_the_view(self):
         everything = "Region: what the view shows"
-        self.window.load(panel=everything, view="Scale: 25")
+        self.window.load_panel(panel=everything, view="Scale: 25")
         self.wait_until_shown()
         self.expect_region(self.refine(), (-10, -10, 0), (10, 10, 2))
         # 894 by 708 pixels: from 0.5 m to 15.5 m and from 2 m to 14 m.
-        self.window.load(panel=everything, view="Scale: 60\nX: 8\nY: 8")
-        self.wait_for(lambda p: p.like(lambda *rgb: rgb == (128, 64, 128), range(400, 1280, 8),
-                                       range(0, 800, 8)))
+        self.window.load_panel(panel=everything, view="Scale: 60\nX: 8\nY: 8")
+        self.wait_for(lambda p: like(p, is_near(ROAD), **VIEW))
         self.expect_region(self.refine(), (0, 0, 0), (10, 10, 0))
 
     def test_an_empty_view_is_said_and_nothing_asked_for(self):
-        self.window.load(panel="Region: what the view shows", view="X: 500")
+        self.window.load_panel(panel="Region: what the view shows", view="X: 500")
         time.sleep(3)  # the node would be there by then
         self.expect_no_request()
-        self.wait_for(lambda p: p.like(is_red, PANEL, ANSWER))
+        self.wait_for(lambda p: like(p, is_bad, rows=ANSWER))
 
     def test_what_is_no_number_is_said_and_nothing_asked_for(self):
-        self.window.load(panel="Levels: many")
+        self.window.load_panel(panel="Levels: many")
         time.sleep(3)
         self.expect_no_request()
-        self.wait_for(lambda p: p.like(is_red, PANEL, ANSWER))
+        self.wait_for(lambda p: like(p, is_bad, rows=ANSWER))
 
     def test_progress_and_energies(self):
-        self.window.load()
+        self.window.load_panel()
         self.node.may_answer.clear()
         self.refine()
         empty = self.window.picture()
@@ -219,12 +179,12 @@ class RefinePanelTest(unittest.TestCase):
             self.assertLess(last[0] - after_gap[0], 8, "of the second level there is but a dot")
         self.node.answer = self.done()
         self.node.may_answer.set()
-        self.wait_for(lambda p: p.like(is_green, PANEL, ANSWER) and bar_length(p) > 300, "_done")
+        self.wait_for(lambda p: like(p, is_good, rows=ANSWER) and bar_length(p) > 300, "_done")
 
     @staticmethod
     def curve(picture, empty, is_curve):
         """What has come: the words in the same colour were there before."""
-        return sorted(picture.like(is_curve, PANEL, PLOT) - empty.like(is_curve, PANEL, PLOT))
+        return sorted(like(picture, is_curve, rows=PLOT) - like(empty, is_curve, rows=PLOT))
 
     @staticmethod
     def done():
@@ -237,19 +197,18 @@ class RefinePanelTest(unittest.TestCase):
         return response
 
     def test_rviz_goes_on_during_a_call(self):
-        self.window.load()
+        self.window.load_panel()
         self.wait_until_shown()
         self.node.may_answer.clear()
         self.refine()
         changed = mesh_messages.four_fields()
         changed[2].labels = [1] * len(changed[2].labels)
         self.mesh.publish(mesh_messages.mesh(changed, map_id="during the call"))
-        self.wait_for(lambda p: not p.like(lambda *rgb: rgb == (107, 142, 35), range(400, 1280, 8),
-                                           range(0, 800, 8)))
+        self.wait_for(lambda p: not like(p, is_near(VEGETATION), **VIEW))
         self.mesh.publish(mesh_messages.mesh(mesh_messages.four_fields(), map_id="afterwards"))
 
     def test_cancel_reaches_the_node(self):
-        self.window.load()
+        self.window.load_panel()
         self.node.may_answer.clear()
         self.refine()
         self.reach("c", self.node.cancelled)
@@ -259,36 +218,36 @@ class RefinePanelTest(unittest.TestCase):
         self.refine()
 
     def test_what_the_node_refuses_is_shown(self):
-        self.window.load()
+        self.window.load_panel()
         for code, sentence in ((Status.BUSY, "~refine is running; wait for it or call "
                                 "~cancel_refine first"),
                                (Status.NOT_READY, "there is no mesh yet: it comes from the mapper "
                                 "on '/mapper/mesh' " + 30 * "and so on ")):
             self.node.answer.status.code, self.node.answer.status.message = code, sentence
             self.refine()
-            self.wait_for(lambda p: p.like(is_red, PANEL, ANSWER), "_%d" % code)
+            self.wait_for(lambda p: like(p, is_bad, rows=ANSWER), "_%d" % code)
         self.node.begin()
         self.refine()
-        self.wait_for(lambda p: p.like(is_green, PANEL, ANSWER)
-                      and not p.like(is_red, PANEL, ANSWER))
+        self.wait_for(lambda p: like(p, is_good, rows=ANSWER)
+                      and not like(p, is_bad, rows=ANSWER))
 
     def test_save_mesh(self):
-        self.window.load(panel="Save to: ~/a folder/street.ply")
+        self.window.load_panel(panel="Save to: ~/a folder/street.ply")
         request = self.reach("s", self.node.saved)
         self.assertEqual((request.path, list(request.classes)), ("~/a folder/street.ply", []))
-        self.wait_for(lambda p: p.like(is_green, PANEL, ANSWER))
+        self.wait_for(lambda p: like(p, is_good, rows=ANSWER))
 
     def test_a_node_that_is_not_there_and_then_another(self):
-        self.window.load(panel="Node: /nobody")
-        self.wait_for(lambda p: p.like(is_red, PANEL, range(0, 200)))
+        self.window.load_panel(panel="Node: /nobody")
+        self.wait_for(lambda p: like(p, is_bad, rows=range(0, 200)))
         self.expect_no_request()
-        self.fill("n", "refiner")
+        self.window.fill("n", "refiner")
         self.window.press("Return")
         self.refine()
-        self.wait_for(lambda p: not p.like(is_red, PANEL))
+        self.wait_for(lambda p: not like(p, is_bad))
 
     def test_a_job_started_elsewhere_is_shown_and_can_be_cancelled(self):
-        self.window.load()
+        self.window.load_panel()
         self.wait_for(lambda p: bar_length(p) < 20)
         empty = self.window.picture()
 
@@ -307,29 +266,28 @@ class RefinePanelTest(unittest.TestCase):
         self.addCleanup(doomed.wait)
         self.addCleanup(doomed.kill)
         self.assertEqual(doomed.stdout.readline(), "there\n")
-        self.window.load(panel="Node: /doomed")
+        self.window.load_panel(panel="Node: /doomed")
         time.sleep(3)
-        self.press("r")
+        self.window.shortcut("r")
         self.assertEqual(doomed.stdout.readline(), "asked\n")
         doomed.kill()
-        self.wait_for(lambda p: p.like(is_red, PANEL, ANSWER))
+        self.wait_for(lambda p: like(p, is_bad, rows=ANSWER))
 
     def test_the_panel_is_deleted_during_a_call(self):
-        self.window.load()
+        self.window.load_panel()
         self.node.may_answer.clear()
         self.refine()
         begin = time.monotonic()
-        self.window.load()  # all panels are made anew
+        self.window.load_panel()  # all panels are made anew
         self.assertLess(time.monotonic() - begin, TIMEOUT_S / 2)
         self.refine()  # the first one still waits in the node
         self.assertTrue(self.window.is_alive())
 
     def test_rviz_is_closed_during_a_call(self):
-        self.window.load()
+        self.window.load_panel()
         self.node.may_answer.clear()
         self.refine()
-        self.window.focus()
-        self.window.press("q", "Control_L")
+        self.window.shortcut("q", "Control_L")
         self.assertEqual(self.window.rviz.wait(timeout=TIMEOUT_S), 0)
         self.window.start()
 

@@ -48,15 +48,9 @@ class Picture:
         start = 3 * (row * WIDTH + column)
         return tuple(self._pixels[start:start + 3])
 
-    def like(self, is_right, columns=range(WIDTH), rows=range(HEIGHT)):
-        """The (column, row) of all pixels whose colour is_right(red, green, blue)."""
-        return {(column, row) for row in rows for column in columns
-                if is_right(*self.pixel(column, row))}
-
 
 class RvizWindow:
-    def __init__(self, master_uri, config="four_fields.rviz"):
-        self._config = config
+    def __init__(self, master_uri):
         self._folder = tempfile.TemporaryDirectory()
         self._processes = []
         self._display = self._start_screen()
@@ -76,24 +70,18 @@ class RvizWindow:
         with os.fdopen(reader) as pipe:
             return ":" + pipe.readline().strip()
 
-    def write_config(self, properties="", panel="", view=""):
-        """Further lines of the display, of the panel Refine and of the view, each after a line that
-        is in the configuration."""
-        text = (HERE / self._config).read_text(encoding="utf-8")
-        for line, more in (("      Lighting: false\n", properties), ("    Name: Refine\n", panel),
-                           ("      Angle: 0\n", view)):
-            indent = line[:len(line) - len(line.lstrip())]
-            text = text.replace(line, line + "".join(indent + m + "\n" for m in more.splitlines()))
-        with open(self.config_path(), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.config_path()
+    def write_config(self, properties=""):
+        """`properties`: further lines of the display."""
+        text = (HERE / "four_fields.rviz").read_text(encoding="utf-8")
+        path = os.path.join(self._folder.name, "shown.rviz")
+        indented = "".join("      " + line + "\n" for line in properties.splitlines())
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("      Lighting: false\n", "      Lighting: false\n" + indented))
+        return path
 
-    def config_path(self):
-        return os.path.join(self._folder.name, "shown.rviz")
-
-    def start(self, properties="", **more):
+    def start(self, properties=""):
         self.rviz = subprocess.Popen(
-            ["rviz", "-d", self.write_config(properties, **more), "__name:=rviz"], env=self._env,
+            ["rviz", "-d", self.write_config(properties), "__name:=rviz"], env=self._env,
             stdout=self._log, stderr=subprocess.STDOUT)
         self._processes.append(self.rviz)
         rospy.wait_for_service("/rviz/load_config_discarding_changes", timeout=TIMEOUT_S)
@@ -102,8 +90,8 @@ class RvizWindow:
         self.rviz.terminate()
         self.rviz.wait(timeout=TIMEOUT_S)
 
-    def load(self, properties="", **more):
-        path = self.write_config(properties, **more)
+    def load(self, properties=""):
+        path = self.write_config(properties)
         rospy.ServiceProxy("/rviz/load_config_discarding_changes", SendFilePath)(path)
 
     def is_alive(self):
@@ -126,35 +114,12 @@ class RvizWindow:
             Xlib.ext.xtest.fake_input(screen, kind, button)
         screen.sync()
 
-    def press(self, key, *modifiers):
-        """A key by its X name, such as "i" or "Return", while others are held, such as "Alt_L"."""
-        self._press_symbol(Xlib.XK.string_to_keysym(key), *modifiers)
-
-    def type(self, text):
-        """ASCII characters."""
+    def press(self, key):
+        """A key by its X name, such as "i" or "Return"."""
         screen = self._connect()
-        for character in text:
-            code = screen.keysym_to_keycode(ord(character))
-            is_plain = screen.keycode_to_keysym(code, 0) == ord(character)
-            self._press_symbol(ord(character), *([] if is_plain else ["Shift_L"]))
-
-    def _press_symbol(self, symbol, *modifiers):
-        screen = self._connect()
-        codes = [screen.keysym_to_keycode(Xlib.XK.string_to_keysym(name)) for name in modifiers]
-        codes.append(screen.keysym_to_keycode(symbol))
-        for code in codes:
-            Xlib.ext.xtest.fake_input(screen, Xlib.X.KeyPress, code)
-        for code in reversed(codes):
-            Xlib.ext.xtest.fake_input(screen, Xlib.X.KeyRelease, code)
-        screen.sync()
-
-    def focus(self):
-        """There is no window manager that would do so: gives the keys to rviz's main window."""
-        screen = self._connect()
-        for window in screen.screen().root.query_tree().children:
-            is_shown = window.get_attributes().map_state == Xlib.X.IsViewable
-            if is_shown and window.get_geometry().width > WIDTH // 2:
-                window.set_input_focus(Xlib.X.RevertToParent, Xlib.X.CurrentTime)
+        code = screen.keysym_to_keycode(Xlib.XK.string_to_keysym(key))
+        for kind in (Xlib.X.KeyPress, Xlib.X.KeyRelease):
+            Xlib.ext.xtest.fake_input(screen, kind, code)
         screen.sync()
 
     def _connect(self):
