@@ -52,6 +52,18 @@ std::vector<EnergyHistory::Stretch> EnergyHistory::levels() const {
   return stretches;
 }
 
+std::size_t EnergyHistory::places() const {
+  constexpr std::size_t kFew = 10;
+  const std::size_t count = samples_.size();
+  const std::size_t most = std::max(kFew, 2 * count);
+  const double fraction = samples_.empty() ? 0.0 : samples_.back().fraction;
+  if (!(fraction * static_cast<double>(most) > static_cast<double>(count))) {
+    return most;
+  }
+  return std::max(count,
+                  static_cast<std::size_t>(std::lround(static_cast<double>(count) / fraction)));
+}
+
 std::string PlotAxis::text(double value) const {
   const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
   char buffer[64];

@@ -18,11 +18,6 @@ constexpr double kDotSize = 3.0;  // pixels, half the width
 constexpr double kLineWidth = 2.0;
 const char* const kBelow = "iteration";
 
-double right_of_last_level(const EnergyHistory& history, std::size_t begin) {
-  const auto& samples = history.samples();
-  return begin == 0 ? 0.0 : 0.5 * (samples[begin - 1].fraction + samples[begin].fraction);
-}
-
 }  // namespace
 
 EnergyPlot::EnergyPlot(QWidget* parent) : QWidget(parent) {
@@ -78,8 +73,8 @@ std::vector<EnergyPlot::Strip> EnergyPlot::strips() const {
   return strips;
 }
 
-double EnergyPlot::x_of(const QRectF& area, std::size_t sample) const {
-  return area.left() + history_.samples()[sample].fraction * area.width();
+double EnergyPlot::x_of(const QRectF& area, double place) const {
+  return area.left() + place / static_cast<double>(history_.places()) * area.width();
 }
 
 void EnergyPlot::paint_frame(const Strip& strip, QPainter* painter) const {
@@ -112,17 +107,21 @@ void EnergyPlot::paint_frame(const Strip& strip, QPainter* painter) const {
 
 void EnergyPlot::paint_levels(const Strip& strip, QPainter* painter) const {
   const QRectF& area = strip.area;
-  const double line = fontMetrics().height();
+  const auto levels = history_.levels();
   painter->setPen(palette().color(QPalette::Text));
-  for (const EnergyHistory::Stretch& level : history_.levels()) {
-    const double x = area.left() + right_of_last_level(history_, level.begin) * area.width();
-    if (level.begin > 0) {
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const double x = x_of(area, static_cast<double>(levels[k].begin));
+    if (k > 0) {
       painter->drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     }
-    const double end = x_of(area, level.end - 1);
-    painter->drawText(QRectF(x, area.top() - line - 1.0, end - x + kGap, line),
-                      Qt::AlignRight | Qt::AlignVCenter | Qt::TextDontClip,
-                      QString("level %1").arg(level.level));
+    // At the lower left, where a falling curve leaves room.
+    const QString text = QString("level %1").arg(levels[k].level);
+    const double end =
+        k + 1 < levels.size() ? x_of(area, static_cast<double>(levels[k + 1].begin)) : area.right();
+    const QRectF place(x + kGap, area.top(), end - x - kGap, area.height() - 1.0);
+    if (fontMetrics().horizontalAdvance(text) < place.width()) {
+      painter->drawText(place, Qt::AlignLeft | Qt::AlignBottom, text);
+    }
   }
 }
 
@@ -137,7 +136,7 @@ void EnergyPlot::paint_curve(const Strip& strip, QPainter* painter) const {
       }
       const double y =
           strip.area.bottom() - strip.axis.share(strip.values[k]) * strip.area.height();
-      line.append({x_of(strip.area, k), y});
+      line.append({x_of(strip.area, static_cast<double>(k) + 0.5), y});
       painter->drawRect(QRectF(
           line.back().x() - 0.5 * kDotSize, line.back().y() - 0.5 * kDotSize, kDotSize, kDotSize));
     }
@@ -155,7 +154,7 @@ void EnergyPlot::paint_iterations(const QRectF& area, QPainter* painter) const {
   for (std::size_t k = 0; k < history_.samples().size(); ++k) {
     const QString text = QString::number(history_.samples()[k].iteration + 1);
     const double half = 0.5 * fontMetrics().horizontalAdvance(text);
-    const double x = x_of(area, k);
+    const double x = x_of(area, static_cast<double>(k) + 0.5);
     if (x - half < free_from) {
       continue;
     }

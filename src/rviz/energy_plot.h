@@ -15,9 +15,8 @@
 
 namespace facet_mapping {
 
-/// Two strips, since the energies have scales of their own: photometric above, semantic below. From
-/// left to right goes the share of the job that is done, so that a curve grows with the progress;
-/// between levels it is broken, as those are not comparable.
+/// Two strips, since the energies have scales of their own: photometric above, semantic below.
+/// A curve grows with the job and is broken between levels, as those are not comparable.
 class EnergyPlot : public QWidget {
   Q_OBJECT
 
@@ -43,7 +42,8 @@ class EnergyPlot : public QWidget {
 
   Strip make_strip(const QString& title, const QColor& color, std::vector<double> values) const;
   std::vector<Strip> strips() const;
-  double x_of(const QRectF& area, std::size_t sample) const;
+  /// Place k is that of sample k, from k to k + 1.
+  double x_of(const QRectF& area, double place) const;
   void paint_frame(const Strip& strip, QPainter* painter) const;
   void paint_levels(const Strip& strip, QPainter* painter) const;
   void paint_curve(const Strip& strip, QPainter* painter) const;

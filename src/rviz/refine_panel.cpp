@@ -159,8 +159,8 @@ void RefinePanel::show_presence() {
       form_->show_presence(name + " is there", true);
       return;
     case RefineNode::Presence::kMissing:
-      form_->show_presence(
-          "no such node: nobody offers " + QString::fromStdString(node_->service("refine")), false);
+      form_->show_presence("no node offers " + QString::fromStdString(node_->service("refine")),
+                           false);
       return;
   }
 }
@@ -250,12 +250,14 @@ void RefinePanel::take_cancel_answer() {
   if (!outcome) {
     return;
   }
-  if (outcome->problem.empty() && outcome->response.status.code == Status::OK) {
-    view_->show_note(QString::fromStdString(outcome->response.status.message));
-  } else if (node_->refine.is_running() && !outcome->problem.empty()) {
+  if (outcome->problem.empty()) {  // a note, since the answer of the refinement is worth more
+    const Status& status = outcome->response.status;
+    view_->show_note(QString::fromStdString(status.message));
+    if (status.code == Status::NOT_READY) {
+      other_job_.reset();
+    }
+  } else if (is_refining()) {
     node_->refine.break_off();  // a node that is gone will not answer that call either
-  } else if (outcome->problem.empty()) {
-    view_->show_answer(outcome->response.status, {});
   } else {
     view_->show_problem(outcome->problem);
   }

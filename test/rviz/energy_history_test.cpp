@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facet_mapping/rviz/energy_history.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -43,6 +44,22 @@ TEST(EnergyHistory, AnotherJobBeginsAnew) {
   EXPECT_TRUE(history.add(sample(0, 0, 0.5, 1.0))) << "its clock went back: fewer iterations";
   EXPECT_EQ(history.samples().size(), 1U);
   EXPECT_TRUE(history.add(sample(0, 0, 0.5, 1.5))) << "a job of one iteration, again";
+}
+
+TEST(EnergyHistory, PlacesAreThoseOfTheWholeJobUnlessItIsLong) {
+  EnergyHistory history;
+  EXPECT_EQ(history.places(), 10U);
+  history.add(sample(1, 0, 0.125, 1.0));
+  EXPECT_EQ(history.places(), 8U);
+  history.clear();
+  for (int k = 0; k < 20; ++k) {
+    history.add(sample(0, k, (k + 1) / 1000.0, k + 1.0));
+    EXPECT_EQ(history.places(), std::max<std::size_t>(10, 2 * (k + 1)));
+  }
+  history.add(sample(0, 20, 1.0, 30.0));
+  EXPECT_EQ(history.places(), 21U);
+  history.add(sample(0, 0, NAN, 1.0));
+  EXPECT_EQ(history.places(), 10U);
 }
 
 TEST(PlotAxis, EndsAndStepsAreRound) {

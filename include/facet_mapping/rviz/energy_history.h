@@ -30,6 +30,10 @@ class EnergyHistory {
   /// In the order of time; neighbours differ in their level.
   std::vector<Stretch> levels() const;
 
+  /// Places on an axis of iterations: as many as the job seems to need in the end, but never so
+  /// many that the samples take less than half of them.
+  std::size_t places() const;
+
  private:
   std::vector<RefineProgress> samples_;
 };
