@@ -157,6 +157,9 @@ RefineSettings RefineForm::settings() const {
 }
 
 void RefineForm::show_presence(const QString& sentence, bool is_good) {
+  if (presence_->text() == sentence) {
+    return;
+  }
   presence_->setText(sentence);
   QPalette colors = palette();
   if (!is_good) {

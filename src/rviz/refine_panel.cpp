@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine_panel.h"
 
-#include <QFileDialog>
-#include <QGridLayout>
-#include <QPointer>
+#include <QHBoxLayout>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QVBoxLayout>
-#include <exception>
+#include <stdexcept>
+#include <utility>
 
 #include "shown_region.h"
 #include <pluginlib/class_list_macros.hpp>
@@ -20,13 +19,12 @@ namespace {
 constexpr int kPollInterval = 100;            // milliseconds
 constexpr std::chrono::seconds kSilence(60);  // after it, another client's job counts as over
 const char* const kPathKey = "Save to";
-const char* const kDefaultPath = "~/refined.ply";
 const char* const kOther = "started elsewhere: ";
 
 }  // namespace
 
 RefinePanel::RefinePanel(QWidget* parent)
-    : Panel(parent), form_(new RefineForm), view_(new RefineView) {
+    : Panel(parent), form_(new RefineForm), view_(new RefineView), save_row_(new SaveRow) {
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(4, 4, 4, 4);
@@ -34,7 +32,7 @@ RefinePanel::RefinePanel(QWidget* parent)
   column->addWidget(form_);
   column->addWidget(make_buttons());
   column->addWidget(view_, 1);
-  column->addWidget(make_save_row());
+  column->addWidget(save_row_);
   auto* scroll = new QScrollArea;  // so that the panel fits beside others in a small window
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
@@ -47,6 +45,8 @@ RefinePanel::RefinePanel(QWidget* parent)
   outer->addWidget(scroll);
   connect(form_, &RefineForm::changed, this, &RefinePanel::configChanged);
   connect(form_, &RefineForm::node_changed, this, &RefinePanel::use_node);
+  connect(save_row_, &SaveRow::changed, this, &RefinePanel::configChanged);
+  connect(save_row_, &SaveRow::save_pressed, this, &RefinePanel::save_mesh);
   connect(&timer_, &QTimer::timeout, this, &RefinePanel::poll);
   update_buttons();
 }
@@ -80,29 +80,6 @@ QWidget* RefinePanel::make_buttons() {
   return row;
 }
 
-QWidget* RefinePanel::make_save_row() {
-  const QString tip = "PLY file on the node's machine; ~ is the home folder of the node.";
-  path_ = new QLineEdit(kDefaultPath);
-  path_->setToolTip(tip);
-  auto* choose = make_button("...", "Choose a file.", &RefinePanel::choose_file);
-  choose->setFixedWidth(30);
-  save_button_ =
-      make_button("&Save mesh", "Writes the node's mesh as PLY.", &RefinePanel::save_mesh);
-  save_answer_ = new QLabel;
-  save_answer_->setWordWrap(true);
-  save_answer_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  save_answer_->hide();
-  auto* row = new QWidget;
-  auto* grid = new QGridLayout(row);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->addWidget(path_, 0, 0);
-  grid->addWidget(choose, 0, 1);
-  grid->addWidget(save_button_, 0, 2);
-  grid->addWidget(save_answer_, 1, 0, 1, 3);
-  connect(path_, &QLineEdit::textEdited, this, &RefinePanel::configChanged);
-  return row;
-}
-
 void RefinePanel::onInitialize() {
   node_ = std::make_unique<RefineNode>(
       vis_manager_->getUpdateQueue(),
@@ -115,7 +92,7 @@ void RefinePanel::load(const rviz::Config& config) {
   Panel::load(config);
   QString path;
   if (config.mapGetString(kPathKey, &path)) {
-    path_->setText(path);
+    save_row_->set_path(path);
   }
   form_->load(config);
 }
@@ -123,7 +100,7 @@ void RefinePanel::load(const rviz::Config& config) {
 void RefinePanel::save(rviz::Config config) const {
   Panel::save(config);
   form_->save(config);
-  config.mapSetValue(kPathKey, path_->text());
+  config.mapSetValue(kPathKey, save_row_->path());
 }
 
 void RefinePanel::use_node() {
@@ -198,21 +175,10 @@ void RefinePanel::cancel() {
 
 void RefinePanel::save_mesh() {
   SaveMesh::Request request;
-  request.path = path_->text().trimmed().toStdString();
+  request.path = save_row_->path().toStdString();
   node_->save.call(node_->service("save_mesh"), std::move(request));
-  save_answer_->setText("saving ...");
-  save_answer_->show();
+  save_row_->show_answer("saving ...");
   update_buttons();
-}
-
-void RefinePanel::choose_file() {
-  const QPointer<RefinePanel> self(this);  // another configuration may be loaded meanwhile
-  const QString path = QFileDialog::getSaveFileName(
-      this, "File for the mesh", path_->text(), "PLY (*.ply)", nullptr);
-  if (self && !path.isEmpty()) {
-    path_->setText(path);
-    Q_EMIT configChanged();
-  }
 }
 
 void RefinePanel::on_progress(const RefineProgress& progress) {
@@ -222,6 +188,9 @@ void RefinePanel::on_progress(const RefineProgress& progress) {
   view_->show_history(history_);
   if (!is_job_own_) {
     other_job_ = std::chrono::steady_clock::now();
+    if (progress.fraction >= 1.0) {  // what is left of it cannot be cancelled
+      other_job_.reset();
+    }
     view_->show_progress(progress, kOther);
   } else if (is_refining()) {  // else the answer has overtaken the last message
     other_job_.reset();
@@ -265,8 +234,8 @@ void RefinePanel::take_cancel_answer() {
 
 void RefinePanel::take_save_answer() {
   if (const auto outcome = node_->save.take()) {
-    save_answer_->setText(outcome->problem.empty() ? answer_html(outcome->response.status)
-                                                   : problem_html(outcome->problem));
+    save_row_->show_answer(outcome->problem.empty() ? answer_html(outcome->response.status)
+                                                    : problem_html(outcome->problem));
   }
 }
 
@@ -286,7 +255,7 @@ void RefinePanel::update_buttons() {
   dry_run_button_->setEnabled(is_there && !is_asking);
   cancel_button_->setEnabled(!is_cancelling &&
                              ((is_asking && !is_dry_run_) || (is_there && other_job_)));
-  save_button_->setEnabled(is_there && !is_saving && !path_->text().trimmed().isEmpty());
+  save_row_->set_ready(is_there && !is_saving);
 }
 
 }  // namespace facet_mapping

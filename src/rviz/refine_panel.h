@@ -4,8 +4,6 @@
 // The rviz panel facet_mapping/Refine.
 #pragma once
 
-#include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QTimer>
 #include <chrono>
@@ -15,6 +13,7 @@
 #include "refine_form.h"
 #include "refine_node.h"
 #include "refine_view.h"
+#include "save_row.h"
 #include <rviz/panel.h>
 
 #include "facet_mapping/rviz/energy_history.h"
@@ -33,7 +32,6 @@ class RefinePanel : public rviz::Panel {
 
  private:
   QWidget* make_buttons();
-  QWidget* make_save_row();
   QPushButton* make_button(const QString& text, const QString& tip, void (RefinePanel::*action)());
 
   void refine() { ask(false); }
@@ -42,7 +40,6 @@ class RefinePanel : public rviz::Panel {
   bool is_refining() const;
   void cancel();
   void save_mesh();
-  void choose_file();
 
   void use_node();
   void poll();
@@ -56,12 +53,10 @@ class RefinePanel : public rviz::Panel {
 
   RefineForm* form_;
   RefineView* view_;
+  SaveRow* save_row_;
   QPushButton* refine_button_ = nullptr;
   QPushButton* dry_run_button_ = nullptr;
   QPushButton* cancel_button_ = nullptr;
-  QPushButton* save_button_ = nullptr;
-  QLineEdit* path_ = nullptr;
-  QLabel* save_answer_ = nullptr;
   QTimer timer_;
   std::unique_ptr<RefineNode> node_;  // null before onInitialize()
   EnergyHistory history_;             // of the job last heard of

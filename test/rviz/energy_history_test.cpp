@@ -54,7 +54,7 @@ TEST(EnergyHistory, PlacesAreThoseOfTheWholeJobUnlessItIsLong) {
   history.clear();
   for (int k = 0; k < 20; ++k) {
     history.add(sample(0, k, (k + 1) / 1000.0, k + 1.0));
-    EXPECT_EQ(history.places(), std::max<std::size_t>(10, 2 * (k + 1)));
+    EXPECT_EQ(history.places(), std::max(std::size_t{10}, 2 * history.samples().size()));
   }
   history.add(sample(0, 20, 1.0, 30.0));
   EXPECT_EQ(history.places(), 21U);
