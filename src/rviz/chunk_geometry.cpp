@@ -22,8 +22,8 @@ class GeometryBuilder {
         ring_(chunk.vertices.size(), 0) {
     const std::size_t facets = chunk.triangles.size() / 3;
     has_labels_ = fits(chunk.labels.size(), facets);
-    has_confidence_ = fits(chunk.confidence.size(), facets);
-    has_views_ = fits(chunk.views.size(), facets);
+    geometry_.has_confidence = fits(chunk.confidence.size(), facets);
+    geometry_.has_views = fits(chunk.views.size(), facets);
     chunk_code_ = static_cast<std::uint8_t>((static_cast<std::uint32_t>(chunk.key[0]) * 5U +
                                              static_cast<std::uint32_t>(chunk.key[1]) * 3U +
                                              static_cast<std::uint32_t>(chunk.key[2]) * 7U) %
@@ -91,8 +91,8 @@ class GeometryBuilder {
 
   std::array<std::uint8_t, 4> attributes(std::size_t facet) const {
     const Label label = has_labels_ ? chunk_.labels[facet] : kUnlabelled;
-    const std::uint8_t confidence = has_confidence_ ? chunk_.confidence[facet] : 255;
-    const std::uint16_t views = has_views_ ? chunk_.views[facet] : 1;
+    const std::uint8_t confidence = geometry_.has_confidence ? chunk_.confidence[facet] : 255;
+    const std::uint16_t views = geometry_.has_views ? chunk_.views[facet] : 1;
     return {slots_.at(label),
             confidence,
             static_cast<std::uint8_t>(std::min<std::uint16_t>(views, 255)),
@@ -135,8 +135,6 @@ class GeometryBuilder {
   std::vector<std::uint32_t> ring_;
   std::vector<std::uint32_t> source_;  // by vertex: the given one
   bool has_labels_ = false;
-  bool has_confidence_ = false;
-  bool has_views_ = false;
   std::uint8_t chunk_code_ = 0;
   ChunkGeometry geometry_;
 };

@@ -18,13 +18,14 @@ constexpr std::size_t kMaxShortIndex = 65535;
 constexpr float kMaxLossPixels = 2.6F;   // by which a coarse level may differ
 constexpr float kUnknownScale = 1.0e9F;  // asks for the finest level
 
-Ogre::Vector3 to_ogre(const Eigen::Vector3f& v) {
-  return {v.x(), v.y(), v.z()};
+Ogre::Vector3 to_ogre(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 }  // namespace
 
-ChunkRenderable::ChunkRenderable(const ChunkGeometry& geometry) {
+ChunkRenderable::ChunkRenderable(const Eigen::Vector3d& origin, const ChunkGeometry& geometry)
+    : packing_(origin, geometry.box) {
   upload_vertices(geometry);
   const bool is_short = geometry.vertices.size() <= kMaxShortIndex;
   add_level(geometry.indices, 0.0F, is_short);
@@ -34,8 +35,12 @@ ChunkRenderable::ChunkRenderable(const ChunkGeometry& geometry) {
   mRenderOp.indexData = levels_.front().indices.get();
   mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
   mRenderOp.useIndexes = true;
-  setBoundingBox({to_ogre(geometry.box.min()), to_ogre(geometry.box.max())});
-  radius_ = geometry.box.min().cwiseAbs().cwiseMax(geometry.box.max().cwiseAbs()).norm();
+  const Eigen::Vector3d shift = origin - packing_.center();
+  const Eigen::Vector3d low = (geometry.box.min().cast<double>() + shift) / packing_.step_m();
+  const Eigen::Vector3d high = (geometry.box.max().cast<double>() + shift) / packing_.step_m();
+  const Eigen::Vector3d rounding = Eigen::Vector3d::Ones();
+  setBoundingBox({to_ogre(low - rounding), to_ogre(high + rounding)});
+  radius_ = static_cast<float>((low.cwiseAbs().cwiseMax(high.cwiseAbs()) + rounding).norm());
 }
 
 ChunkRenderable::~ChunkRenderable() {
@@ -46,12 +51,16 @@ void ChunkRenderable::upload_vertices(const ChunkGeometry& geometry) {
   auto data = std::make_unique<Ogre::VertexData>();
   data->vertexCount = geometry.vertices.size();
   Ogre::VertexDeclaration* layout = data->vertexDeclaration;
-  layout->addElement(0, offsetof(FacetVertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
-  layout->addElement(0, offsetof(FacetVertex, normal), Ogre::VET_BYTE4_NORM, Ogre::VES_NORMAL);
-  layout->addElement(0, offsetof(FacetVertex, facet), Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
+  layout->addElement(0, 0, Ogre::VET_SHORT4, Ogre::VES_POSITION);  // the fourth: the normal
+  layout->addElement(0, offsetof(PackedVertex, facet), Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
   const auto buffer = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
-      sizeof(FacetVertex), data->vertexCount, Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
-  buffer->writeData(0, buffer->getSizeInBytes(), geometry.vertices.data(), true);
+      sizeof(PackedVertex), data->vertexCount, Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  std::vector<PackedVertex> packed;
+  packed.reserve(geometry.vertices.size());
+  for (const FacetVertex& vertex : geometry.vertices) {
+    packed.push_back(packing_.pack(vertex));
+  }
+  buffer->writeData(0, buffer->getSizeInBytes(), packed.data(), true);
   data->vertexBufferBinding->setBinding(0, buffer);
   mRenderOp.vertexData = data.release();
 }
@@ -77,6 +86,28 @@ void ChunkRenderable::add_level(const std::vector<std::uint32_t>& indices,
   levels_.push_back(std::move(level));
 }
 
+ChunkGeometry ChunkRenderable::read_back() const {
+  ChunkGeometry geometry;
+  const auto vertices = mRenderOp.vertexData->vertexBufferBinding->getBuffer(0);
+  std::vector<PackedVertex> packed(mRenderOp.vertexData->vertexCount);
+  vertices->readData(0, vertices->getSizeInBytes(), packed.data());
+  geometry.vertices.reserve(packed.size());
+  for (const PackedVertex& vertex : packed) {
+    geometry.vertices.push_back(packing_.unpack(vertex));
+  }
+  const Ogre::IndexData& finest = *levels_.front().indices;
+  const auto indices = finest.indexBuffer;
+  if (indices->getType() == Ogre::HardwareIndexBuffer::IT_16BIT) {
+    std::vector<std::uint16_t> short_indices(finest.indexCount);
+    indices->readData(0, indices->getSizeInBytes(), short_indices.data());
+    geometry.indices.assign(short_indices.begin(), short_indices.end());
+  } else {
+    geometry.indices.resize(finest.indexCount);
+    indices->readData(0, indices->getSizeInBytes(), geometry.indices.data());
+  }
+  return geometry;
+}
+
 float ChunkRenderable::pixels_per_metre(const Ogre::Camera& camera) const {
   const Ogre::Viewport* viewport = camera.getViewport();
   if (viewport == nullptr) {
@@ -89,9 +120,9 @@ float ChunkRenderable::pixels_per_metre(const Ogre::Camera& camera) const {
   if (projection[3][3] == 1.0F) {
     return at_unit_distance;
   }
-  const Ogre::Vector3 center = getParentNode()->_getFullTransform() * getBoundingBox().getCenter();
+  const Ogre::AxisAlignedBox& box = getWorldBoundingBox(true);
   const float nearest =
-      (center - camera.getDerivedPosition()).length() - getBoundingBox().getHalfSize().length();
+      (box.getCenter() - camera.getDerivedPosition()).length() - box.getHalfSize().length();
   return nearest > 0.0F ? at_unit_distance / nearest : kUnknownScale;
 }
 

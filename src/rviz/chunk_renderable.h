@@ -10,19 +10,25 @@
 #include <OgreSimpleRenderable.h>
 
 #include "facet_mapping/rviz/chunk_geometry.h"
+#include "facet_mapping/rviz/vertex_packing.h"
 
 namespace facet_mapping {
 
-/// Hangs below a scene node at the chunk's origin.
+/// Hangs below a scene node that stands at packing().center() of the mesh's frame and scales by
+/// packing().step_m().
 class ChunkRenderable : public Ogre::SimpleRenderable {
  public:
-  /// Uploads the geometry, which must not be empty.
-  explicit ChunkRenderable(const ChunkGeometry& geometry);
+  /// Uploads the geometry, which must not be empty. `origin`: of the chunk in the mesh's frame.
+  ChunkRenderable(const Eigen::Vector3d& origin, const ChunkGeometry& geometry);
   ~ChunkRenderable() override;
   ChunkRenderable(const ChunkRenderable&) = delete;
   ChunkRenderable& operator=(const ChunkRenderable&) = delete;
   ChunkRenderable(ChunkRenderable&&) = delete;
   ChunkRenderable& operator=(ChunkRenderable&&) = delete;
+
+  const VertexPacking& packing() const { return packing_; }
+  /// The finest level's vertices and indices, as they lie on the graphics card. Slow.
+  ChunkGeometry read_back() const;
 
   /// Chooses the level whose loss cannot be seen from there.
   void _notifyCurrentCamera(Ogre::Camera* camera) override;
@@ -39,6 +45,7 @@ class ChunkRenderable : public Ogre::SimpleRenderable {
   void add_level(const std::vector<std::uint32_t>& indices, float cell_m, bool is_short);
   float pixels_per_metre(const Ogre::Camera& camera) const;
 
+  VertexPacking packing_;
   std::vector<Level> levels_;  // from fine to coarse
   Ogre::Real radius_ = 0.0F;
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "class_properties.h"
 #include "mesh_source.h"
@@ -15,6 +16,8 @@
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
+
+#include "facet_mapping/rviz/facet_info.h"
 
 namespace facet_mapping {
 
@@ -34,6 +37,8 @@ class LabeledMeshDisplay : public rviz::Display {
   std::string topic() const { return topic_->getTopicStd(); }
   const ChunkStore& store() const { return store_; }
   const ClassTable& classes() const { return classes_; }
+  /// The facet that is seen first along a ray of the fixed frame; nothing if there is none.
+  std::optional<FacetInfo> inspect(const PickRay& ray) const;
   /// Of the chunks that the camera sees, in the axes of store().frame_id(); empty if there is none.
   Eigen::AlignedBox3d box_in_view(const Ogre::Camera& camera) const;
 
@@ -52,6 +57,7 @@ class LabeledMeshDisplay : public rviz::Display {
   void add_limit_properties();
   void upload_palette();
   MeshLook look() const;
+  Eigen::Isometry3d fixed_from_mesh() const;
   void place();
   void update_height_range();
   void show_new_classes();

@@ -27,10 +27,20 @@ out vec4 place;      // x, y, z seen from the eye, height
 vec3 ramp(float value) {
   return texelFetch(palette, ivec2(int(clamp(value, 0.0, 1.0) * 255.0 + 0.5), 1), 0).rgb;
 }
-vec3 pick(vec4 of_class, vec4 facet) {
+// The octahedral normal of vertex_packing.h.
+vec3 unpack(float packed_normal) {
+  float high = floor(packed_normal / 256.0);
+  vec2 e = vec2(packed_normal - 256.0 * high, high + 128.0) / 127.0 - 1.0;
+  vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+  if (n.z < 0.0) {
+    n.xy = (1.0 - abs(e.yx)) * vec2(e.x < 0.0 ? -1.0 : 1.0, e.y < 0.0 ? -1.0 : 1.0);
+  }
+  return n;
+}
+vec3 pick(vec4 of_class, vec4 facet, vec3 n) {
   if (mode < 0.5) return of_class.rgb;
   if (mode < 1.5) return ramp(facet.y / 255.0);
-  if (mode < 2.5) return 0.5 + 0.5 * mat3(to_world) * gl_Normal;
+  if (mode < 2.5) return 0.5 + 0.5 * normalize(mat3(to_world) * n);
   if (mode < 3.5) return vec3(1.0);
   if (mode < 4.5) return ramp(facet.z / full_views);
   if (mode < 5.5) return texelFetch(palette, ivec2(int(facet.w), 2), 0).rgb;
@@ -39,13 +49,15 @@ vec3 pick(vec4 of_class, vec4 facet) {
 void main() {
   vec4 facet = floor(gl_Color * 255.0 + 0.5);  // class slot, confidence, views, chunk
   vec4 of_class = texelFetch(palette, ivec2(int(facet.x), 0), 0);
-  vec3 seen = (to_view * gl_Vertex).xyz;
-  vec3 n_seen = normalize(mat3(to_view) * gl_Normal + vec3(0.0, 0.0, 1.0e-6));
+  vec4 corner = vec4(gl_Vertex.xyz, 1.0);
+  vec3 n = unpack(gl_Vertex.w);
+  vec3 seen = (to_view * corner).xyz;
+  vec3 n_seen = normalize(mat3(to_view) * n);
   float light = mix(1.0, 0.4 + 0.6 * abs(dot(n_seen, normalize(seen))), lighting);
   float shown = facet.y < min_confidence || facet.z < min_views ? 0.0 : of_class.a * alpha;
-  rgba = vec4(pick(of_class, facet) * light * darkening, shown);
-  place = vec4(seen, (to_world * gl_Vertex).z);
-  gl_Position = to_screen * gl_Vertex;
+  rgba = vec4(pick(of_class, facet, n) * light * darkening, shown);
+  place = vec4(seen, (to_world * corner).z);
+  gl_Position = to_screen * corner;
 }
 )";
 

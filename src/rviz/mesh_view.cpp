@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_view.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -66,16 +67,21 @@ void MeshView::show(const BuiltChunk& chunk) {
   shown.facets = geometry.indices.size() / 3;
   shown.bad_facets = geometry.bad_facets;
   shown.bad_attributes = geometry.bad_attributes;
+  shown.has_confidence = geometry.has_confidence;
+  shown.has_views = geometry.has_views;
   shown.area_by_slot_m2 = geometry.area_by_slot_m2;
   if (shown.facets > 0) {
+    shown.origin = chunk.origin;
     shown.box = {chunk.origin + geometry.box.min().cast<double>(),
                  chunk.origin + geometry.box.max().cast<double>()};
-    shown.renderable = std::make_unique<ChunkRenderable>(geometry);
+    shown.renderable = std::make_unique<ChunkRenderable>(chunk.origin, geometry);
     shown.renderable->setMaterial(material_.material());
     shown.node = parent_->createChildSceneNode();
-    shown.node->setPosition(static_cast<float>(chunk.origin.x()),
-                            static_cast<float>(chunk.origin.y()),
-                            static_cast<float>(chunk.origin.z()));
+    const VertexPacking& packing = shown.renderable->packing();
+    shown.node->setPosition(static_cast<float>(packing.center().x()),
+                            static_cast<float>(packing.center().y()),
+                            static_cast<float>(packing.center().z()));
+    shown.node->setScale(Ogre::Vector3(static_cast<float>(packing.step_m())));
     shown.node->attachObject(shown.renderable.get());
   }
   facets_ += shown.facets;
@@ -94,6 +100,32 @@ void MeshView::hide(const ChunkKey& key) {
     parent_->getCreator()->destroySceneNode(found->second.node);
   }
   shown_.erase(found);
+}
+
+std::optional<MeshView::Picked> MeshView::pick(const PickRay& ray, const PickFilter& filter) const {
+  std::vector<std::pair<double, ChunkKey>> met;  // by where the ray enters the chunk's box
+  for (const auto& [key, shown] : shown_) {
+    const std::optional<double> entry =
+        shown.renderable ? entry_distance(ray, shown.box) : std::nullopt;
+    if (entry) {
+      met.emplace_back(*entry, key);
+    }
+  }
+  std::sort(met.begin(), met.end());
+  std::optional<Picked> best;
+  for (const auto& [entry, key] : met) {
+    if (best && best->hit.distance < entry) {
+      break;
+    }
+    const Shown& shown = shown_.at(key);
+    const ChunkGeometry geometry = shown.renderable->read_back();
+    std::optional<FacetHit> hit =
+        nearest_facet(ray, filter, shown.origin, geometry.vertices, geometry.indices);
+    if (hit && (!best || hit->distance < best->hit.distance)) {
+      best = Picked{key, *hit, shown.has_confidence, shown.has_views};
+    }
+  }
+  return best;
 }
 
 std::size_t MeshView::bad_facets() const {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "chunk_renderable.h"
@@ -19,6 +20,7 @@
 #include "facet_mapping/rviz/chunk_builder.h"
 #include "facet_mapping/rviz/chunk_store.h"
 #include "facet_mapping/rviz/class_table.h"
+#include "facet_mapping/rviz/facet_pick.h"
 
 namespace facet_mapping {
 
@@ -38,6 +40,15 @@ class MeshView {
   /// Taken from the store, but not yet on the screen.
   std::size_t waiting() const { return builder_.under_way(); }
 
+  struct Picked {
+    ChunkKey chunk{};
+    FacetHit hit;
+    bool has_confidence = false;
+    bool has_views = false;
+  };
+  /// The first facet on the ray, which is in the mesh's frame.
+  std::optional<Picked> pick(const PickRay& ray, const PickFilter& filter) const;
+
   MeshMaterial& material() { return material_; }
   std::size_t facets() const { return facets_; }
   /// Facets drawn anew since the beginning.
@@ -54,7 +65,10 @@ class MeshView {
   struct Shown {
     Ogre::SceneNode* node = nullptr;
     std::unique_ptr<ChunkRenderable> renderable;  // null if nothing could be drawn
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     Eigen::AlignedBox3d box;
+    bool has_confidence = false;
+    bool has_views = false;
     std::map<std::uint8_t, double> area_by_slot_m2;
     std::size_t facets = 0;
     std::size_t bad_facets = 0;

@@ -14,7 +14,7 @@ import roslib.packages
 import rospy
 import rostest
 from facet_mapping.msg import ClassPalette, LabeledMesh, Status
-from facet_mapping.srv import GetMesh, LoadMesh, SaveMesh
+from facet_mapping.srv import GetMesh, LoadMesh, Refine, RefineResponse, SaveMesh
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
@@ -65,6 +65,33 @@ def load(path):
 
 def facets_in(mesh):
     return sum(len(chunk.triangles) for chunk in mesh.chunks) // 3
+
+
+class StandInRefiner:
+    """Under /refiner what mesh_server shows; "refining" makes that show another file."""
+
+    def __init__(self, refined, code=Status.OK):
+        self.refined, self.code, self.requests = refined, code, []
+        palette = rospy.wait_for_message("/mesh_server/palette", ClassPalette, timeout=TIMEOUT_S)
+        self.publisher = rospy.Publisher("/refiner/palette", ClassPalette, latch=True, queue_size=1)
+        self.publisher.publish(palette)
+        self.services = [rospy.Service("/refiner/refine", Refine, self.refine),
+                         rospy.Service("/refiner/get_mesh", GetMesh, self.get_mesh)]
+
+    def refine(self, request):
+        self.requests.append(request)
+        if self.code == Status.OK:
+            load(self.refined)
+        return RefineResponse(status=Status(code=self.code, message="what the refiner says"))
+
+    @staticmethod
+    def get_mesh(request):
+        return call("mesh_server/get_mesh", GetMesh, classes=request.classes)
+
+    def close(self):
+        for service in self.services:
+            service.shutdown()
+        self.publisher.unregister()
 
 
 class MeshServerTest(unittest.TestCase):
@@ -227,6 +254,36 @@ class MeshServerTest(unittest.TestCase):
 
     def test_kerb_height_in_python(self):
         self.check_kerb_heights("kerb_height.py")
+
+    def run_with_refiner(self, name, code=Status.OK):
+        """What the program says with `_refine:=true`, and the requests that came."""
+        self.show_street()
+        vertices, faces, labels = mesh_files.street(0.20, 0.05)
+        refined = mesh_files.write_ply(self.file("refined.ply"), vertices, faces, labels)
+        refiner = StandInRefiner(refined, code)
+        self.addCleanup(refiner.close)
+        program = roslib.packages.find_node(PACKAGE, name)[0]
+        done = subprocess.run([program, "_mesh_node:=/refiner", "_refine:=true"], text=True,
+                              capture_output=True, timeout=2 * TIMEOUT_S)
+        refiner.close()
+        return done, refiner.requests
+
+    def test_kerb_height_of_the_refined_mesh(self):
+        for name in ("kerb_height", "kerb_height.py"):
+            done, requests = self.run_with_refiner(name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual([list(request.classes) for request in requests], [[0, 1]])
+            self.assertIn("what the refiner says", done.stdout)
+            for side, expected in (("left", 0.20), ("right", 0.05)):
+                found = re.search(side + r": median (\S+) m", done.stdout)
+                self.assertIsNotNone(found, done.stdout)
+                self.assertAlmostEqual(float(found.group(1)), expected, delta=0.005)
+
+    def test_kerb_height_ends_when_the_refiner_refuses(self):
+        for name in ("kerb_height", "kerb_height.py"):
+            done, _ = self.run_with_refiner(name, Status.BUSY)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("what the refiner says", done.stderr)
 
     def test_kerb_height_says_what_is_missing(self):
         load(self.write("other.ply", classes={0: ("street", (1, 2, 3)), 1: ("kerb", (4, 5, 6))}))

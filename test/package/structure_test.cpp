@@ -32,6 +32,22 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"synthetic", {"geometry", "labels", "points", "render", "io"}},
 };
 
+/// Outside the core; nothing of the core may include them. That a path may be one of ROS itself or
+/// of rviz itself does no harm: those are as far from the core.
+const std::map<std::string, std::set<std::string>> kMayIncludeWithRos{
+    {"ros",
+     {"geometry",
+      "labels",
+      "points",
+      "segmentation",
+      "render",
+      "labeling",
+      "refinement",
+      "mapping",
+      "io"}},
+    {"rviz", {"geometry", "mapping", "ros"}},
+};
+
 struct Include {
   fs::path file;
   std::string target;
@@ -70,14 +86,16 @@ std::vector<Include> includes_of(const std::string& room) {
 std::string room_of(const std::string& target) {
   std::smatch match;
   if (std::regex_search(target, match, std::regex("^(?:facet_mapping/)?([a-z]+)/")) &&
-      (kMayInclude.count(match[1]) > 0 || match[1] == "ros")) {
+      (kMayInclude.count(match[1]) > 0 || kMayIncludeWithRos.count(match[1]) > 0)) {
     return match[1];
   }
   return {};
 }
 
 TEST(Structure, RoomsIncludeOneWay) {
-  for (const auto& [room, allowed] : kMayInclude) {
+  auto rooms = kMayInclude;
+  rooms.insert(kMayIncludeWithRos.begin(), kMayIncludeWithRos.end());
+  for (const auto& [room, allowed] : rooms) {
     const std::vector<Include> includes = includes_of(room);
     EXPECT_FALSE(includes.empty()) << room;
     for (const Include& include : includes) {

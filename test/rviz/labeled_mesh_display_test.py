@@ -10,11 +10,10 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-from facet_mapping.msg import ClassPalette, LabeledMesh
-from facet_mapping.srv import GetMesh, GetMeshResponse
 
 import mesh_messages
 import rviz_window
+import stand_in_mapper
 
 BACKGROUND = (32, 36, 40)
 # A point in each field, by class; none on an edge of a facet.
@@ -29,46 +28,13 @@ def is_near(a, b):
     return all(abs(x - y) <= TOLERANCE for x, y in zip(a, b))
 
 
-class Mapper:
-    """Stands in for the node that publishes the mesh: like it, sends newcomers the whole mesh."""
-
-    def __init__(self):
-        self.full = mesh_messages.mesh(mesh_messages.four_fields())
-        self.calls = 0
-        self._palette = None
-        self.show_palette()
-        self._mesh = rospy.Publisher("/mapper/mesh", LabeledMesh, self, queue_size=10)
-        self._service = rospy.Service("/mapper/get_mesh", GetMesh, self.answer)
-
-    def show_palette(self):
-        self._palette = rospy.Publisher("/mapper/palette", ClassPalette, latch=True, queue_size=1)
-        self._palette.publish(mesh_messages.palette())
-
-    def hide_palette(self):
-        self._palette.unregister()
-
-    def peer_subscribe(self, _topic, _publish, publish_to_peer):
-        publish_to_peer(self.full)
-
-    def peer_unsubscribe(self, _topic, _number):
-        pass
-
-    def answer(self, _request):
-        self.calls += 1
-        return GetMeshResponse(mesh=self.full)
-
-    def show(self, message, full=None):
-        self.full = full or message
-        self._mesh.publish(message)
-
-
 class LabeledMeshDisplayTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         if rviz_window.missing():
             raise unittest.SkipTest("not installed: " + ", ".join(rviz_window.missing()))
         rospy.init_node("labeled_mesh_display_test")
-        cls.mapper = Mapper()
+        cls.mapper = stand_in_mapper.Mapper()
         cls.window = rviz_window.RvizWindow(rosgraph.get_master_uri())
         cls.addClassCleanup(cls.window.close)
         cls.window.start()

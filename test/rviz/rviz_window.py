@@ -114,6 +114,10 @@ class RvizWindow:
             Xlib.ext.xtest.fake_input(screen, kind, button)
         screen.sync()
 
+    def click_ground(self, x, y):
+        """The point (x, y) on the ground, in metres."""
+        self.click(round(CENTRE[0] + SCALE * x), round(CENTRE[1] - SCALE * y))
+
     def press(self, key):
         """A key by its X name, such as "i" or "Return"."""
         screen = self._connect()

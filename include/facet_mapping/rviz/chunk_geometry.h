@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: facet_mapping contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A chunk as the graphics card takes it: one vertex per facet carries what belongs to the facet.
+// A chunk made ready for drawing: one vertex per facet carries what belongs to the facet.
 #pragma once
 
 #include <array>
@@ -17,14 +17,13 @@
 
 namespace facet_mapping {
 
-/// One vertex in the buffer. `normal` and `facet` are those of the one facet whose last corner it
+/// `normal` and `facet` are those of the one facet whose last corner it
 /// is: the shader takes them unblended (`flat`) from there.
 struct FacetVertex {
   std::array<float, 3> position{};      ///< relative to the chunk's origin, metres
   std::array<std::int8_t, 4> normal{};  ///< -127..127 = -1..1; zero if the facet has no area
   std::array<std::uint8_t, 4> facet{};  ///< class slot, confidence, views (at most 255), chunk
 };
-static_assert(sizeof(FacetVertex) == 20, "goes to the graphics card as it is");
 
 /// The chunk for the far view, its vertices drawn together on a grid.
 struct CoarseLevel {
@@ -41,6 +40,8 @@ struct ChunkGeometry {
   std::map<std::uint8_t, double> area_by_slot_m2;
   std::size_t bad_facets = 0;   ///< left out: index out of range, or a vertex that is not finite
   bool bad_attributes = false;  ///< an array of wrong length was taken as absent
+  bool has_confidence = false;  ///< false: each facet's is taken as full
+  bool has_views = false;       ///< false: each facet is taken as seen
 };
 
 /// Copes with whatever a message may hold. About one vertex per facet: facets share vertices as
