@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 
+import drive_laps
 from measuring import markdown_table, say
 
 HEADER_BYTES = 4 + 8  # seq and stamp; the frame follows with its length
@@ -75,11 +76,12 @@ class Traffic:
         self.content[key] = now
 
 
-def table_of(updates):
-    """Sums over growing parts of the drive."""
+def table_of(updates, laps=1):
+    """Sums over growing parts of the drive: quarters, or laps."""
     begin, rows = updates[0][0], []
-    for share in (0.25, 0.5, 0.75, 1.0):
-        part = updates[:max(1, round(share * len(updates)))]
+    parts = laps if laps > 1 else 4
+    for number in range(1, parts + 1):
+        part = updates[:max(1, round(number / parts * len(updates)))]
         seconds = max(part[-1][0] - begin, 1e-9)
         sent, whole = sum(u[1] for u in part), sum(u[2] for u in part)
         marker = sum(MARKER_BYTES_PER_FACET * u[3] for u in part)
@@ -134,8 +136,9 @@ def wait_for_map(recorder):
         stats = rospy.wait_for_message("/mapper/stats", MeshStats, timeout=60.0)
         if stats.sequence != last or stats.pending > 0 or stats.sequence == 0:
             last, since = stats.sequence, time.monotonic()
-            say("  update %d, %d keyframes, %d facets, %d frames wait"
-                % (stats.sequence, stats.keyframes, stats.facets, stats.pending))
+            say("  update %d (%.1f s), %d keyframes, %d facets, %d frames wait"
+                % (stats.sequence, stats.update_seconds, stats.keyframes, stats.facets,
+                   stats.pending))
 
 
 def play(arguments, parameters):
@@ -173,9 +176,15 @@ def main():
     parser.add_argument("bag")
     parser.add_argument("mesh_bag")
     parser.add_argument("--rate", type=float, default=1.0)
+    parser.add_argument("--laps", type=int, default=1)
     arguments, parameters = parser.parse_known_args()
     # Of the drive's time, so that a slow machine sees the updates of a fast one.
     parameters.insert(0, "update_period_s:=%g" % (UPDATE_PERIOD_S / arguments.rate))
+    if arguments.laps > 1:
+        say("  laying the drive end to end %d times" % arguments.laps)
+        long_bag = arguments.bag + ".laps.bag"
+        drive_laps.write_laps(arguments.bag, arguments.laps, long_bag)
+        arguments.bag = long_bag
     play(arguments, parameters)
     import rosbag
     traffic = Traffic()
@@ -184,7 +193,7 @@ def main():
             traffic.add(kind().deserialize(data), len(data))
     if not traffic.updates:
         sys.exit("no update came on /mapper/mesh")
-    print(table_of(traffic.updates))
+    print(table_of(traffic.updates, arguments.laps))
     total = sum(traffic.sent.values())
     print("\nFacets in the deltas: " + ", ".join(
         "%s %.0f %%" % (what, 100.0 * count / total) for what, count in traffic.sent.items()))

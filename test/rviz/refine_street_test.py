@@ -4,20 +4,17 @@
 """The panel in a real rviz beside the real nodes, which have mapped a few metres of the synthetic
 street. With FACET_MAPPING_PICTURES=FOLDER the pictures are kept."""
 import os
-import subprocess
 import sys
-import tempfile
-import threading
 import time
 import unittest
 
 import rosgraph
-import roslib.packages
 import rospy
 import rostest
-from facet_mapping.msg import LabeledMesh, MeshStats, RefineProgress
+from facet_mapping.msg import LabeledMesh, RefineProgress
 
 import rviz_window
+import street_drive
 from refine_window import (ANSWER, PLOT, RefineWindow, bar_length, is_good, is_photometric,
                            is_semantic, is_stopped, like)
 
@@ -35,27 +32,16 @@ class RefineStreetTest(unittest.TestCase):
         rospy.init_node("refine_street_test")
         cls.refined = []
         cls.progress = []
-        cls.has_map = threading.Event()
         cls.subscribers = [
             rospy.Subscriber("/refiner/mesh", LabeledMesh, cls.refined.append),
-            rospy.Subscriber("/refiner/progress", RefineProgress, cls.progress.append),
-            rospy.Subscriber("/mapper/stats", MeshStats, cls.watch_map)]
+            rospy.Subscriber("/refiner/progress", RefineProgress, cls.progress.append)]
         cls.window = RefineWindow(rosgraph.get_master_uri())
         cls.addClassCleanup(cls.window.close)
         cls.window.view_lines = VIEW
         cls.window.start()
-        with tempfile.TemporaryDirectory() as folder:
-            tool = roslib.packages.find_node("facet_mapping", "street_to_bag")[0]
-            subprocess.run([tool, folder, "--frames", str(FRAMES), "--no-scans"], check=True,
-                           stdout=subprocess.DEVNULL)
-            rospy.wait_for_service("/refiner/refine", timeout=TIMEOUT_S)
-            subprocess.run(["rosbag", "play", "--clock", "--quiet", "-d", "2", "--rate", "0.5",
-                            os.path.join(folder, "street.bag")], check=True)
-
-    @classmethod
-    def watch_map(cls, stats):
-        if stats.keyframes >= FRAMES - 2 and stats.pending == 0:
-            cls.has_map.set()
+        drive = street_drive.StreetDrive(FRAMES)
+        drive.wait_for_nodes()
+        drive.drive_on(FRAMES)
 
     def wait_for(self, is_right, name):
         path = PICTURES and os.path.join(PICTURES, "street_" + name + ".png")
@@ -75,7 +61,6 @@ class RefineStreetTest(unittest.TestCase):
             time.sleep(1)
 
     def test_the_visible_part_is_refined(self):
-        self.assertTrue(self.has_map.wait(TIMEOUT_S))
         self.start("Region: what the view shows\nLevels: 1\nIterations: 4")
         self.wait_for(lambda p: bar_length(p) > 20 and like(p, is_photometric, rows=PLOT)
                       and like(p, is_semantic, rows=PLOT), "during")
@@ -85,7 +70,6 @@ class RefineStreetTest(unittest.TestCase):
         self.assertTrue(self.refined)
 
     def test_what_runs_is_cancelled(self):
-        self.assertTrue(self.has_map.wait(TIMEOUT_S))
         self.start("Levels: 1\nIterations: 500")
 
         def is_cancelled(picture):

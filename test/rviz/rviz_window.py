@@ -4,9 +4,11 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
+import typing
 
 import rospy
 import Xlib.display
@@ -18,8 +20,7 @@ from std_msgs.msg import Bool, String
 HERE = pathlib.Path(__file__).resolve().parent
 NEEDED = ("Xvfb", "rviz", "import")
 WIDTH, HEIGHT = 1280, 800
-# Centre of the view and pixels per metre of four_fields.rviz.
-CENTRE, SCALE = (814, 416), 25
+CENTRE = (814, 416)  # pixel in the middle of the view of four_fields.rviz
 TIMEOUT_S = 60  # far more than needed, so that a slow machine does not fail the test
 
 
@@ -35,14 +36,26 @@ def missing():
     return [name for name in NEEDED if shutil.which(name) is None]
 
 
+class View(typing.NamedTuple):
+    """Seen from straight above."""
+    scale: float = 25  # pixels per metre
+    x: float = 0  # of the point in the middle, in metres
+    y: float = 0
+
+    def pixel_of(self, x, y):
+        """Column and row on the screen of the point (x, y), in metres."""
+        return (round(CENTRE[0] + self.scale * (x - self.x)),
+                round(CENTRE[1] - self.scale * (y - self.y)))
+
+
 class Picture:
-    def __init__(self, ppm):
+    def __init__(self, ppm, view=View()):
         self._pixels = ppm[-3 * WIDTH * HEIGHT:]
+        self._view = view
 
     def at(self, x, y):
         """Colour of the point (x, y) on the ground, in metres."""
-        column, row = round(CENTRE[0] + SCALE * x), round(CENTRE[1] - SCALE * y)
-        return self.pixel(column, row)
+        return self.pixel(*self._view.pixel_of(x, y))
 
     def pixel(self, column, row):
         start = 3 * (row * WIDTH + column)
@@ -53,11 +66,13 @@ class RvizWindow:
     def __init__(self, master_uri):
         self._folder = tempfile.TemporaryDirectory()
         self._processes = []
-        self._display = self._start_screen()
-        self._env = dict(os.environ, DISPLAY=self._display, LIBGL_ALWAYS_SOFTWARE="1",
+        self.screen_name = self._start_screen()
+        self._env = dict(os.environ, DISPLAY=self.screen_name, LIBGL_ALWAYS_SOFTWARE="1",
                          QT_X11_NO_MITSHM="1", ROS_MASTER_URI=master_uri,
                          HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name)
         self._screen = None
+        self.topic = "/mapper/mesh"  # this and the view: of configurations written from now on
+        self.view = View()
         self._log = open(os.path.join(self._folder.name, "rviz.log"), "wb")
         self.rviz = None
 
@@ -73,6 +88,8 @@ class RvizWindow:
     def write_config(self, properties=""):
         """`properties`: further lines of the display."""
         text = (HERE / "four_fields.rviz").read_text(encoding="utf-8")
+        text = text.replace("Topic: /mapper/mesh", "Topic: " + self.topic).replace(
+            "Scale: 25\n      X: 0\n      Y: 0", "Scale: %g\n      X: %g\n      Y: %g" % self.view)
         path = os.path.join(self._folder.name, "shown.rviz")
         indented = "".join("      " + line + "\n" for line in properties.splitlines())
         with open(path, "w", encoding="utf-8") as file:
@@ -86,8 +103,8 @@ class RvizWindow:
         self._processes.append(self.rviz)
         rospy.wait_for_service("/rviz/load_config_discarding_changes", timeout=TIMEOUT_S)
 
-    def stop(self):
-        self.rviz.terminate()
+    def stop(self, sign=signal.SIGTERM):
+        self.rviz.send_signal(sign)
         self.rviz.wait(timeout=TIMEOUT_S)
 
     def load(self, properties=""):
@@ -102,7 +119,7 @@ class RvizWindow:
                              check=True, stdout=subprocess.PIPE).stdout
         if path:
             subprocess.run(["convert", "ppm:-", path], input=ppm, check=True)
-        return Picture(ppm)
+        return Picture(ppm, self.view)
 
     def click(self, column, row, button=1):
         """At a pixel of the screen."""
@@ -116,7 +133,7 @@ class RvizWindow:
 
     def click_ground(self, x, y):
         """The point (x, y) on the ground, in metres."""
-        self.click(round(CENTRE[0] + SCALE * x), round(CENTRE[1] - SCALE * y))
+        self.click(*self.view.pixel_of(x, y))
 
     def press(self, key):
         """A key by its X name, such as "i" or "Return"."""
@@ -126,9 +143,16 @@ class RvizWindow:
             Xlib.ext.xtest.fake_input(screen, kind, code)
         screen.sync()
 
+    def color_at(self, x, y):
+        """As Picture.at, of the screen as it is now: far faster than a picture."""
+        column, row = self.view.pixel_of(x, y)
+        root = self._connect().screen().root
+        data = root.get_image(column, row, 1, 1, Xlib.X.ZPixmap, 0xffffffff).data
+        return data[2], data[1], data[0]
+
     def _connect(self):
         if self._screen is None:
-            self._screen = Xlib.display.Display(self._display)
+            self._screen = Xlib.display.Display(self.screen_name)
         return self._screen
 
     def wait_for(self, is_right, path=None):

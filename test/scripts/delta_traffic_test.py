@@ -8,6 +8,7 @@ Usage: delta_traffic_test.py PROGRAM_FOLDER
 import io
 import os
 import sys
+import tempfile
 import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -16,8 +17,13 @@ if len(sys.argv) > 1:
     sys.path.insert(0, os.path.join(sys.argv.pop(1), "..", "python3", "dist-packages"))
 
 import delta_traffic  # noqa: E402
+import drive_laps  # noqa: E402
+import rosbag  # noqa: E402
+import rospy  # noqa: E402
 from facet_mapping.msg import LabeledMesh, LabeledMeshChunk  # noqa: E402
-from geometry_msgs.msg import Point32  # noqa: E402
+from geometry_msgs.msg import Point32, Quaternion, TransformStamped, Vector3  # noqa: E402
+from sensor_msgs.msg import Image  # noqa: E402
+from tf2_msgs.msg import TFMessage  # noqa: E402
 
 
 def chunk(key, facets, label=0):
@@ -40,6 +46,43 @@ def add(traffic, mesh):
     mesh.serialize(buffer)
     traffic.add(mesh, len(buffer.getvalue()))
     return len(buffer.getvalue())
+
+
+STEP = drive_laps.Rigid((0.0, 0.1, 0.2, 1.0), (1.0, 0.2, -0.1))  # of a drive that turns
+
+
+def write_drive(path, frames):
+    pose = drive_laps.Rigid((0.3, 0.0, 0.0, 1.0), (5.0, 6.0, 7.0))
+    with rosbag.Bag(path, "w") as bag:
+        bag.write("/tf_static", TFMessage([TransformStamped()]), rospy.Time(100))
+        for k in range(frames):
+            image, transform = Image(), TransformStamped()
+            image.header.stamp = transform.header.stamp = rospy.Time(100 + k)
+            transform.transform.translation = Vector3(*pose.translation)
+            transform.transform.rotation = Quaternion(*pose.rotation)
+            bag.write("/tf", TFMessage([transform]), rospy.Time(100 + k))
+            bag.write("/image", image, rospy.Time(100 + k))
+            pose = pose * STEP
+
+
+class DriveLapsTest(unittest.TestCase):
+    def test_each_lap_goes_on_where_the_one_before_ended(self):
+        with tempfile.TemporaryDirectory() as folder:
+            short, long = os.path.join(folder, "short.bag"), os.path.join(folder, "long.bag")
+            write_drive(short, 4)
+            drive_laps.write_laps(short, 3, long)
+            with rosbag.Bag(long) as bag:
+                messages = list(bag.read_messages())
+        self.assertEqual([topic for topic, _, _ in messages].count("/tf_static"), 1)
+        images = [message for topic, message, _ in messages if topic == "/image"]
+        self.assertEqual([i.header.stamp.to_sec() for i in images], list(range(100, 112)))
+        self.assertTrue(all(m.header.stamp == t for topic, m, t in messages if topic == "/image"))
+        poses = [drive_laps.pose_of(m.transforms[0].transform)
+                 for topic, m, _ in messages if topic == "/tf"]
+        for before, after in zip(poses, poses[1:]):
+            step = before.inverse() * after
+            for a, b in zip(step.rotation + step.translation, STEP.rotation + STEP.translation):
+                self.assertAlmostEqual(a, b)
 
 
 class DeltaTrafficTest(unittest.TestCase):
