@@ -25,13 +25,19 @@ BuiltChunk build(const LabeledMeshChunk& chunk, const ClassSlots& slots) {
   built.origin = {chunk.origin.x, chunk.origin.y, chunk.origin.z};
   built.geometry = make_chunk_geometry(chunk, slots);
   add_coarse_levels(built.origin, &built.geometry);
+  built.packing = VertexPacking(built.origin, built.geometry.box);
+  built.vertices.reserve(built.geometry.vertices.size());
+  for (const FacetVertex& vertex : built.geometry.vertices) {
+    built.vertices.push_back(built.packing.pack(vertex));
+  }
+  built.geometry.vertices = {};
   return built;
 }
 
 }  // namespace
 
 ChunkBuilder::ChunkBuilder() {
-  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 2U, kMaxThreads + 1) - 1;
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMaxThreads);
   for (unsigned k = 0; k < threads; ++k) {
     threads_.emplace_back([this] { work(); });
   }

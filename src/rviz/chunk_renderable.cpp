@@ -24,10 +24,10 @@ Ogre::Vector3 to_ogre(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-ChunkRenderable::ChunkRenderable(const Eigen::Vector3d& origin, const ChunkGeometry& geometry)
-    : packing_(origin, geometry.box) {
-  upload_vertices(geometry);
-  const bool is_short = geometry.vertices.size() <= kMaxShortIndex;
+ChunkRenderable::ChunkRenderable(const BuiltChunk& chunk) : packing_(chunk.packing) {
+  const ChunkGeometry& geometry = chunk.geometry;
+  upload_vertices(chunk.vertices);
+  const bool is_short = chunk.vertices.size() <= kMaxShortIndex;
   add_level(geometry.indices, 0.0F, is_short);
   for (const CoarseLevel& level : geometry.levels) {
     add_level(level.indices, level.cell_m, is_short);
@@ -35,7 +35,7 @@ ChunkRenderable::ChunkRenderable(const Eigen::Vector3d& origin, const ChunkGeome
   mRenderOp.indexData = levels_.front().indices.get();
   mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
   mRenderOp.useIndexes = true;
-  const Eigen::Vector3d shift = origin - packing_.center();
+  const Eigen::Vector3d shift = chunk.origin - packing_.center();
   const Eigen::Vector3d low = (geometry.box.min().cast<double>() + shift) / packing_.step_m();
   const Eigen::Vector3d high = (geometry.box.max().cast<double>() + shift) / packing_.step_m();
   const Eigen::Vector3d rounding = Eigen::Vector3d::Ones();
@@ -47,20 +47,15 @@ ChunkRenderable::~ChunkRenderable() {
   delete mRenderOp.vertexData;  // which the render operation does not own
 }
 
-void ChunkRenderable::upload_vertices(const ChunkGeometry& geometry) {
+void ChunkRenderable::upload_vertices(const std::vector<PackedVertex>& vertices) {
   auto data = std::make_unique<Ogre::VertexData>();
-  data->vertexCount = geometry.vertices.size();
+  data->vertexCount = vertices.size();
   Ogre::VertexDeclaration* layout = data->vertexDeclaration;
   layout->addElement(0, 0, Ogre::VET_SHORT4, Ogre::VES_POSITION);  // the fourth: the normal
   layout->addElement(0, offsetof(PackedVertex, facet), Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
   const auto buffer = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
       sizeof(PackedVertex), data->vertexCount, Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
-  std::vector<PackedVertex> packed;
-  packed.reserve(geometry.vertices.size());
-  for (const FacetVertex& vertex : geometry.vertices) {
-    packed.push_back(packing_.pack(vertex));
-  }
-  buffer->writeData(0, buffer->getSizeInBytes(), packed.data(), true);
+  buffer->writeData(0, buffer->getSizeInBytes(), vertices.data(), true);
   data->vertexBufferBinding->setBinding(0, buffer);
   mRenderOp.vertexData = data.release();
 }

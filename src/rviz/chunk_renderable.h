@@ -9,8 +9,7 @@
 
 #include <OgreSimpleRenderable.h>
 
-#include "facet_mapping/rviz/chunk_geometry.h"
-#include "facet_mapping/rviz/vertex_packing.h"
+#include "facet_mapping/rviz/chunk_builder.h"
 
 namespace facet_mapping {
 
@@ -18,8 +17,8 @@ namespace facet_mapping {
 /// packing().step_m().
 class ChunkRenderable : public Ogre::SimpleRenderable {
  public:
-  /// Uploads the geometry, which must not be empty. `origin`: of the chunk in the mesh's frame.
-  ChunkRenderable(const Eigen::Vector3d& origin, const ChunkGeometry& geometry);
+  /// Uploads the chunk, which must have facets.
+  explicit ChunkRenderable(const BuiltChunk& chunk);
   ~ChunkRenderable() override;
   ChunkRenderable(const ChunkRenderable&) = delete;
   ChunkRenderable& operator=(const ChunkRenderable&) = delete;
@@ -36,7 +35,7 @@ class ChunkRenderable : public Ogre::SimpleRenderable {
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
  private:
-  void upload_vertices(const ChunkGeometry& geometry);
+  void upload_vertices(const std::vector<PackedVertex>& vertices);
   struct Level {
     float cell_m = 0.0F;
     std::unique_ptr<Ogre::IndexData> indices;

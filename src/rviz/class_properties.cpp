@@ -77,8 +77,9 @@ bool ClassProperties::update(ClassTable* classes) {
     }
     Entry& entry = entries_[slot];
     const QString name = QString::fromStdString(style.name);
-    if (entry.shown->getName() != name) {  // the palette came after the first facet
+    if (entry.shown->getName() != name) {  // another palette, or it came after the first facet
       entry.shown->setName(name);
+      entry.has_own_color = false;
       load_entry(style, &entry);
     }
     if (!entry.has_own_color) {
@@ -100,9 +101,10 @@ void ClassProperties::apply(ClassTable* classes) const {
   }
 }
 
-void ClassProperties::show_shares(const std::vector<double>& shares) {
+void ClassProperties::show_shares(const ClassTable& classes, const std::vector<double>& shares) {
   for (std::size_t slot = 0; slot < entries_.size() && slot < shares.size(); ++slot) {
     entries_[slot].share->setString(QString::number(100.0 * shares[slot], 'f', 1) + " %");
+    entries_[slot].shown->setHidden(!classes.styles()[slot].in_palette && shares[slot] == 0.0);
   }
 }
 

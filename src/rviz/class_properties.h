@@ -29,8 +29,8 @@ class ClassProperties : public QObject {
   /// Adds what is new in the table and takes over its names and colours. What the user has set
   /// stays and is written into the table. True if that changed the table.
   bool update(ClassTable* classes);
-  /// By slot, 0..1.
-  void show_shares(const std::vector<double>& shares);
+  /// By slot, 0..1. Classes of an earlier palette that the mesh does not have leave the tree.
+  void show_shares(const ClassTable& classes, const std::vector<double>& shares);
   /// Writes the user's choices into the table.
   void apply(ClassTable* classes) const;
 

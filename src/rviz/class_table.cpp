@@ -9,6 +9,7 @@
 namespace facet_mapping {
 namespace {
 
+constexpr const char* kFurtherClasses = "all further classes";
 constexpr Rgb kUnlabelledColor{128, 128, 128};
 constexpr Rgb kUnknownColor{255, 0, 255};
 // Perceived brightness grows along the ramp, so that it reads without a legend.
@@ -36,6 +37,12 @@ void write_texel(const Rgb& color, std::uint8_t alpha, std::uint8_t* texel) {
   texel[3] = alpha;
 }
 
+void forget_palette(ClassStyle* style) {
+  style->name = "class " + std::to_string(style->id);
+  style->color = kUnknownColor;
+  style->in_palette = false;
+}
+
 }  // namespace
 
 ClassTable::ClassTable() {
@@ -55,11 +62,10 @@ std::uint8_t ClassTable::slot_of(Label id) {
   if (styles_.size() < kSlots) {
     ClassStyle style;
     style.id = id;
-    style.name = "class " + std::to_string(id);
-    style.color = kUnknownColor;
+    forget_palette(&style);
     styles_.push_back(style);
   } else {
-    styles_.back().name = "all further classes";
+    styles_.back().name = kFurtherClasses;
   }
   const auto slot = static_cast<std::uint8_t>(styles_.size() - 1);
   slots_[id] = slot;
@@ -77,6 +83,8 @@ ClassSlots ClassTable::slots_of(const std::vector<Label>& labels) {
 }
 
 void ClassTable::set_palette(const ClassPalette& palette) {
+  std::for_each(
+      styles_.begin() + 1, styles_.end(), [](ClassStyle& style) { forget_palette(&style); });
   for (const PaletteClass& entry : palette.classes) {
     ClassStyle& style = styles_[slot_of(entry.id)];
     if (style.id != entry.id) {
@@ -85,6 +93,9 @@ void ClassTable::set_palette(const ClassPalette& palette) {
     style.name = entry.name;
     style.color = {byte_of(entry.color.r), byte_of(entry.color.g), byte_of(entry.color.b)};
     style.in_palette = true;
+  }
+  if (slots_.size() > styles_.size()) {
+    styles_.back().name = kFurtherClasses;
   }
 }
 

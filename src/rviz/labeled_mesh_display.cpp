@@ -271,7 +271,7 @@ void LabeledMeshDisplay::report() {
       drawn_before_ = view_->drawn();
       give_back_memory();
     }
-    class_properties_->show_shares(area_shares(view_->area_by_slot_m2()));
+    class_properties_->show_shares(classes_, area_shares(view_->area_by_slot_m2()));
     update_height_range();
   }
   if (topic_->getTopicStd().empty()) {

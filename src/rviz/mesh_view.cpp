@@ -74,7 +74,7 @@ void MeshView::show(const BuiltChunk& chunk) {
     shown.origin = chunk.origin;
     shown.box = {chunk.origin + geometry.box.min().cast<double>(),
                  chunk.origin + geometry.box.max().cast<double>()};
-    shown.renderable = std::make_unique<ChunkRenderable>(chunk.origin, geometry);
+    shown.renderable = std::make_unique<ChunkRenderable>(chunk);
     shown.renderable->setMaterial(material_.material());
     shown.node = parent_->createChildSceneNode();
     const VertexPacking& packing = shown.renderable->packing();

@@ -9,7 +9,6 @@ namespace facet_mapping {
 namespace {
 
 constexpr double kMaxSteps = 32767.0;  // to either side of the centre
-constexpr double kMinStep = 1.0 / 4096.0;
 constexpr float kOctahedral = 127.0F;  // 0..254 stand for -1..1
 
 /// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
@@ -55,7 +54,7 @@ std::array<std::int8_t, 4> unpack_normal(std::int16_t packed) {
 }  // namespace
 
 VertexPacking::VertexPacking(const Eigen::Vector3d& origin, const Eigen::AlignedBox3f& box)
-    : origin_(origin), step_m_(kMinStep), center_(origin) {
+    : origin_(origin), center_(origin) {
   if (box.isEmpty()) {
     return;
   }

@@ -37,13 +37,18 @@ TEST(ChunkBuilder, EveryChunkComesBackAsIfMadeAtOnce) {
   }
   const auto taken = take_all(&builder);
   ASSERT_EQ(taken.size(), 200U);
-  const ChunkGeometry expected =
-      make_chunk_geometry(unit_square(0), classes.slots_of(unit_square(0).labels));
   for (const auto& [ticket, built] : taken) {
+    const LabeledMeshChunk given = unit_square(static_cast<std::int32_t>(ticket));
+    const ChunkGeometry expected = make_chunk_geometry(given, classes.slots_of(given.labels));
     EXPECT_EQ(built.key[0], static_cast<std::int32_t>(ticket));
     EXPECT_EQ(built.origin.x(), 2.0 * static_cast<double>(ticket));
     EXPECT_EQ(built.geometry.indices, expected.indices);
-    EXPECT_EQ(built.geometry.vertices.back().facet[0], expected.vertices.back().facet[0]);
+    ASSERT_EQ(built.vertices.size(), expected.vertices.size());
+    for (std::size_t k = 0; k < expected.vertices.size(); ++k) {
+      const FacetVertex unpacked = built.packing.unpack(built.vertices[k]);
+      EXPECT_EQ(unpacked.position, expected.vertices[k].position);
+      EXPECT_EQ(unpacked.facet, expected.vertices[k].facet);
+    }
   }
 }
 

@@ -56,6 +56,21 @@ TEST(ClassTable, OpacityGoesIntoTheTexture) {
   EXPECT_TRUE(table.is_translucent());
 }
 
+TEST(ClassTable, ANewPaletteReplacesTheOldOne) {
+  ClassTable table;
+  table.set_palette(palette_of(1, "road", 0.2F));
+  const std::uint8_t slot = table.slot_of(1);
+  table.style(slot).visible = false;
+  table.set_palette(palette_of(2, "wall", 0.4F));
+  EXPECT_EQ(table.slot_of(1), slot);
+  EXPECT_EQ(table.styles()[slot].name, "class 1");
+  EXPECT_FALSE(table.styles()[slot].in_palette);
+  EXPECT_FALSE(table.styles()[slot].visible);
+  EXPECT_EQ(table.styles()[slot].color, (Rgb{255, 0, 255}));
+  EXPECT_EQ(table.styles()[0].name, "unlabelled");
+  EXPECT_EQ(table.styles()[table.slot_of(2)].name, "wall");
+}
+
 TEST(ClassTable, MoreClassesThanSlotsShareTheLast) {
   ClassTable table;
   for (Label id = 0; id < 1000; ++id) {

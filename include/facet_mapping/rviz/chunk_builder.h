@@ -15,6 +15,7 @@
 
 #include "facet_mapping/mapping/chunked_mesh.h"
 #include "facet_mapping/rviz/chunk_geometry.h"
+#include "facet_mapping/rviz/vertex_packing.h"
 
 namespace facet_mapping {
 
@@ -22,7 +23,10 @@ struct BuiltChunk {
   ChunkKey key{};
   std::uint64_t ticket = 0;                          ///< as it was submitted
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, in the mesh's frame
-  ChunkGeometry geometry;  ///< with coarse levels; empty if the origin is not finite
+  /// With coarse levels, but without `vertices`; empty if the origin is not finite.
+  ChunkGeometry geometry;
+  VertexPacking packing;
+  std::vector<PackedVertex> vertices;
 };
 
 /// All functions are for one thread.

@@ -45,7 +45,8 @@ class ClassTable {
   std::uint8_t slot_of(Label id);
   /// Of all labels, and of unlabelled facets.
   ClassSlots slots_of(const std::vector<Label>& labels);
-  /// Takes names and colours; visibility and opacity stay.
+  /// Takes names and colours; visibility and opacity stay. Classes that it does not name lose
+  /// theirs.
   void set_palette(const ClassPalette& palette);
 
   /// By slot.

@@ -25,6 +25,7 @@ static_assert(sizeof(PackedVertex) == 12, "goes to the graphics card as it is");
 /// they share alike.
 class VertexPacking {
  public:
+  VertexPacking() = default;
   /// `origin`: of the chunk in the mesh's frame; `box`: of its vertices relative to it. Metres.
   VertexPacking(const Eigen::Vector3d& origin, const Eigen::AlignedBox3f& box);
 
@@ -38,9 +39,9 @@ class VertexPacking {
   const Eigen::Vector3d& center() const { return center_; }
 
  private:
-  Eigen::Vector3d origin_;
-  double step_m_;
-  Eigen::Vector3d center_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double step_m_ = 1.0 / 4096.0;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace facet_mapping
