@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_source.h"
 
-#include <chrono>
 #include <utility>
 
-#include <boost/make_shared.hpp>
-#include <facet_mapping/GetMesh.h>
 #include <ros/names.h>
-#include <ros/service.h>
 
 namespace facet_mapping {
 namespace {
@@ -16,23 +12,16 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;  // deltas, which must not be lost
 constexpr std::size_t kMaxKept = 1000;     // messages; a full mesh replaces them anyway
 
-/// Null if the service does not answer.
-LabeledMesh::Ptr call_get_mesh(const std::string& service) {
-  GetMesh call;
-  if (!ros::service::exists(service, false) || !ros::service::call(service, call) ||
-      call.response.status.code != Status::OK) {
-    return nullptr;
-  }
-  return boost::make_shared<LabeledMesh>(std::move(call.response.mesh));
-}
-
 }  // namespace
 
 std::string name_beside(const std::string& topic, const std::string& name) {
   return ros::names::append(ros::names::parentNamespace(topic), name);
 }
 
-MeshSource::MeshSource(const ros::NodeHandle& nh) : nh_(nh), inbox_(std::make_shared<Inbox>()) {}
+MeshSource::MeshSource(const ros::NodeHandle& nh)
+    : nh_(nh),
+      inbox_(std::make_shared<Inbox>()),
+      get_mesh_(std::make_unique<ServiceCaller<GetMesh>>()) {}
 
 void MeshSource::subscribe(const std::string& mesh_topic) {
   unsubscribe();
@@ -61,6 +50,8 @@ void MeshSource::unsubscribe() {
   mesh_sub_.shutdown();
   palette_sub_.shutdown();
   inbox_ = std::make_shared<Inbox>();  // a callback still under way fills the old one
+  get_mesh_ =
+      std::make_unique<ServiceCaller<GetMesh>>();  // an answer under way is no longer wanted
   kept_.clear();
   messages_ = 0;
   gaps_ = 0;
@@ -71,11 +62,11 @@ void MeshSource::unsubscribe() {
 
 void MeshSource::ask_for_full() {
   ++gaps_;
-  answer_ = std::async(std::launch::async, call_get_mesh, name_beside(topic_, "get_mesh"));
+  get_mesh_->call(name_beside(topic_, "get_mesh"), {});
 }
 
 bool MeshSource::apply(const LabeledMesh::Ptr& message, ChunkStore* store) {
-  if (answer_.valid() && message->full == 0) {
+  if (get_mesh_->is_running() && message->full == 0) {
     if (kept_.size() < kMaxKept) {
       kept_.push_back(message);
     }
@@ -90,22 +81,20 @@ bool MeshSource::apply(const LabeledMesh::Ptr& message, ChunkStore* store) {
 }
 
 bool MeshSource::take_answer(ChunkStore* store) {
-  if (!answer_.valid() || answer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+  auto answer = get_mesh_->take();
+  if (!answer) {
     return false;
   }
-  const LabeledMesh::Ptr full = answer_.get();
   std::vector<LabeledMesh::Ptr> kept = std::move(kept_);
   kept_.clear();
-  if (!full || topic_.empty()) {
-    problem_ = "missed a message, and " + name_beside(topic_, "get_mesh") +
-               " does not answer: subscribed anew to get the whole mesh";
-    if (!topic_.empty()) {
-      subscribe_mesh();
-    }
+  if (!answer->problem.empty() || answer->response.status.code != Status::OK) {
+    problem_ = "missed a message; subscribed anew to get the whole mesh, since " +
+               (answer->problem.empty() ? answer->response.status.message : answer->problem);
+    subscribe_mesh();
     return false;
   }
   problem_.clear();
-  bool is_changed = store->apply(std::move(*full)) == ChunkStore::Result::kApplied;
+  bool is_changed = store->apply(std::move(answer->response.mesh)) == ChunkStore::Result::kApplied;
   for (const LabeledMesh::Ptr& message : kept) {
     is_changed |= apply(message, store);
   }

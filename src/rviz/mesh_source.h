@@ -5,14 +5,15 @@
 #pragma once
 
 #include <cstddef>
-#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "service_caller.h"
 #include <facet_mapping/ClassPalette.h>
+#include <facet_mapping/GetMesh.h>
 #include <facet_mapping/LabeledMesh.h>
 #include <ros/node_handle.h>
 
@@ -45,7 +46,7 @@ class MeshSource {
 
   std::size_t messages() const { return messages_; }
   std::size_t gaps() const { return gaps_; }
-  bool is_waiting_for_full() const { return answer_.valid(); }
+  bool is_waiting_for_full() const { return get_mesh_->is_running(); }
   bool has_palette() const { return has_palette_; }
   /// A sentence on what is wrong, or empty.
   const std::string& problem() const { return problem_; }
@@ -70,7 +71,7 @@ class MeshSource {
   std::vector<LabeledMesh::Ptr> kept_;  // came while the full mesh is on its way
   ros::Subscriber mesh_sub_;
   ros::Subscriber palette_sub_;
-  std::future<LabeledMesh::Ptr> answer_;
+  std::unique_ptr<ServiceCaller<GetMesh>> get_mesh_;  // never null
   std::size_t messages_ = 0;
   std::size_t gaps_ = 0;
   bool has_palette_ = false;
