@@ -11,14 +11,17 @@ namespace {
 
 constexpr unsigned kMaxThreads = 4;  // more than uploading can follow
 
-bool is_finite(const geometry_msgs::Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+constexpr double kFarthestOrigin = 1.0e9;  // metres; farther out single steps get lost
+
+bool is_usable(const geometry_msgs::Point& p) {
+  return std::abs(p.x) < kFarthestOrigin && std::abs(p.y) < kFarthestOrigin &&
+         std::abs(p.z) < kFarthestOrigin;  // false for NaN
 }
 
 BuiltChunk build(const LabeledMeshChunk& chunk, const ClassSlots& slots) {
   BuiltChunk built;
-  built.key = {chunk.key[0], chunk.key[1], chunk.key[2]};
-  if (!is_finite(chunk.origin)) {
+  built.key = key_of(chunk);
+  if (!is_usable(chunk.origin)) {
     built.geometry.bad_facets = chunk.triangles.size() / 3;
     return built;
   }

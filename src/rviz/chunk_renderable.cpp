@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "ogre_helpers.h"
 #include <OgreCamera.h>
 #include <OgreHardwareBufferManager.h>
 #include <OgreNode.h>
@@ -17,10 +18,6 @@ namespace {
 constexpr std::size_t kMaxShortIndex = 65535;
 constexpr float kMaxLossPixels = 2.6F;   // by which a coarse level may differ
 constexpr float kUnknownScale = 1.0e9F;  // asks for the finest level
-
-Ogre::Vector3 to_ogre(const Eigen::Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
 }  // namespace
 

@@ -5,15 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "facet_mapping/rviz/chunk_geometry.h"
+
 namespace facet_mapping {
-namespace {
-
-ChunkKey key_of(const LabeledMeshChunk& chunk) {
-  return {chunk.key[0], chunk.key[1], chunk.key[2]};
-}
-
-}  // namespace
-
 ChunkStore::Result ChunkStore::apply(LabeledMesh&& message) {
   const Result result = state_.judge(message);
   if (result != Result::kApplied) {
@@ -59,9 +53,13 @@ void ChunkStore::replace(LabeledMeshChunk chunk, bool is_same_map) {
   if (is_same_map && known != revisions_.end() && known->second == chunk.revision) {
     return;
   }
+  if (is_same_map) {
+    removed_.erase(key);
+  } else if (known != revisions_.end()) {
+    removed_.insert(key);  // the old one must leave, late as the new one may be
+  }
   revisions_[key] = chunk.revision;
   due_[key] = std::move(chunk);
-  removed_.erase(key);
 }
 
 std::optional<LabeledMeshChunk> ChunkStore::take_changed() {

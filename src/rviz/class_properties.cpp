@@ -4,23 +4,12 @@
 
 #include <string>
 
+#include "qt_colors.h"
+
 namespace facet_mapping {
-namespace {
-
-QColor to_qt(const Rgb& color) {
-  return {color[0], color[1], color[2]};
-}
-
-Rgb from_qt(const QColor& color) {
-  return {static_cast<std::uint8_t>(color.red()),
-          static_cast<std::uint8_t>(color.green()),
-          static_cast<std::uint8_t>(color.blue())};
-}
-
-}  // namespace
-
 ClassProperties::ClassProperties(rviz::Property* parent)
-    : root_(new rviz::BoolProperty("Classes",
+    : QObject(parent),
+      root_(new rviz::BoolProperty("Classes",
                                    true,
                                    "The classes met so far. The box here switches all.",
                                    parent,
@@ -68,7 +57,15 @@ void ClassProperties::load_entry(const ClassStyle& style, Entry* entry) {
       config.mapGetChild("Color").isValid() && from_qt(entry->color->getColor()) != style.color;
 }
 
-bool ClassProperties::update(ClassTable* classes) {
+void ClassProperties::save(rviz::Config config) const {
+  for (rviz::Config::MapIterator saved = saved_.mapIterator(); saved.isValid(); saved.advance()) {
+    if (!config.mapGetChild(saved.currentKey()).isValid()) {
+      config.mapMakeChild(saved.currentKey()).copy(saved.currentChild());
+    }
+  }
+}
+
+void ClassProperties::update(ClassTable* classes) {
   is_updating_ = true;
   for (std::size_t slot = 0; slot < classes->styles().size(); ++slot) {
     const ClassStyle& style = classes->styles()[slot];
@@ -85,11 +82,10 @@ bool ClassProperties::update(ClassTable* classes) {
     if (!entry.has_own_color) {
       entry.color->setColor(to_qt(style.color));
     }
+    entry.color->setShouldBeSaved(entry.has_own_color);
   }
   is_updating_ = false;
-  const std::vector<std::uint8_t> before = classes->texels();
   apply(classes);
-  return classes->texels() != before;
 }
 
 void ClassProperties::apply(ClassTable* classes) const {
@@ -129,6 +125,7 @@ void ClassProperties::note_color() {
   }
   for (Entry& entry : entries_) {
     entry.has_own_color |= sender() == entry.color;
+    entry.color->setShouldBeSaved(entry.has_own_color);
   }
   Q_EMIT changed();
 }

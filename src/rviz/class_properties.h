@@ -26,9 +26,11 @@ class ClassProperties : public QObject {
 
   /// What the user chose before; applied to each class as soon as it is known.
   void load(const rviz::Config& config);
+  /// Adds what was chosen for classes that have not been met.
+  void save(rviz::Config config) const;
   /// Adds what is new in the table and takes over its names and colours. What the user has set
-  /// stays and is written into the table. True if that changed the table.
-  bool update(ClassTable* classes);
+  /// stays and is written into the table.
+  void update(ClassTable* classes);
   /// By slot, 0..1. Classes of an earlier palette that the mesh does not have leave the tree.
   void show_shares(const ClassTable& classes, const std::vector<double>& shares);
   /// Writes the user's choices into the table.

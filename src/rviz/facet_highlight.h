@@ -4,6 +4,7 @@
 // The marked facet in the 3D view.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <OgreManualObject.h>
 #include <OgreMaterial.h>
 #include <OgreSceneManager.h>
@@ -23,7 +24,9 @@ class FacetHighlight {
   FacetHighlight(FacetHighlight&&) = delete;
   FacetHighlight& operator=(FacetHighlight&&) = delete;
 
+  /// place() says where.
   void show(const FacetInfo& facet);
+  void place(const Eigen::Isometry3d& fixed_from_mesh);
   void hide();
 
  private:
@@ -31,6 +34,7 @@ class FacetHighlight {
   Ogre::SceneNode* node_;
   Ogre::ManualObject* object_;
   Ogre::MaterialPtr material_;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  // of the facet, in the mesh's frame
 };
 
 }  // namespace facet_mapping

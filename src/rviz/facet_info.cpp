@@ -26,6 +26,10 @@ std::string tuple(const Eigen::Vector3d& v) {
 
 }  // namespace
 
+Eigen::Vector3d cross_of(const FacetInfo& facet) {
+  return (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
+}
+
 std::optional<double> slope_deg(const FacetInfo& facet) {
   if (facet.normal.isZero()) {
     return std::nullopt;

@@ -45,10 +45,8 @@ FacetInfo info_of(const MeshView::Picked& picked,
   }
   facet.chunk = picked.chunk;
   facet.distance = hit.distance;
-  for (std::size_t k = 0; k < 3; ++k) {
-    facet.corners[k] = fixed_from_mesh * hit.corners[k];
-  }
-  const Eigen::Vector3d cross = fixed_from_mesh.linear() * hit.cross();
+  facet.corners = hit.corners;
+  const Eigen::Vector3d cross = fixed_from_mesh.linear() * cross_of(facet);
   facet.area_m2 = 0.5 * cross.norm();
   facet.normal = facet.area_m2 > 0.0 ? Eigen::Vector3d(cross.normalized()) : cross;
   return facet;
@@ -62,22 +60,23 @@ Eigen::Isometry3d LabeledMeshDisplay::fixed_from_mesh() const {
   return Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
 }
 
-std::optional<FacetInfo> LabeledMeshDisplay::inspect(const PickRay& ray) const {
+std::optional<FacetInfo> LabeledMeshDisplay::inspect(const PickRay& ray,
+                                                     const Eigen::Vector3d& eye) const {
   if (!view_ || alpha_->getFloat() <= 0.0F) {
     return std::nullopt;
   }
   const Eigen::Isometry3d transform = fixed_from_mesh();
   const PickRay in_mesh(transform.inverse() * ray.origin(),
                         transform.linear().transpose() * ray.direction());
-  const std::optional<MeshView::Picked> picked =
-      view_->pick(in_mesh, filter_of(look(), classes_, transform));
+  PickFilter filter = filter_of(look(), classes_, transform);
+  filter.eye = transform.inverse() * eye;
+  const std::optional<MeshView::Picked> picked = view_->pick(in_mesh, filter);
   if (!picked) {
     return std::nullopt;
   }
   FacetInfo facet = info_of(*picked, classes_, transform);
   facet.frame_id = store_.frame_id();
   facet.position = in_mesh.pointAt(facet.distance);
-  facet.at = ray.pointAt(facet.distance);
   return facet;
 }
 

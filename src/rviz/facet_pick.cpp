@@ -60,7 +60,7 @@ std::optional<FacetHit> nearest_facet(const PickRay& ray,
                                       const std::vector<FacetVertex>& vertices,
                                       const std::vector<std::uint32_t>& indices) {
   std::optional<FacetHit> best;
-  double nearest = filter.max_distance;
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
     const FacetVertex& last = vertices[indices[k + 2]];
     if (!is_drawn(last, filter)) {
@@ -72,7 +72,9 @@ std::optional<FacetHit> nearest_facet(const PickRay& ray,
           origin + Eigen::Vector3f::Map(vertices[indices[k + c]].position.data()).cast<double>();
     }
     hit.distance = distance_to(ray, hit.corners);
-    if (hit.distance >= nearest || ray.pointAt(hit.distance).dot(filter.up) > filter.max_height ||
+    if (hit.distance >= nearest ||
+        (ray.pointAt(hit.distance) - filter.eye).norm() > filter.max_distance ||
+        ray.pointAt(hit.distance).dot(filter.up) > filter.max_height ||
         (filter.cull_back_faces && hit.cross().dot(ray.direction()) > 0.0)) {
       continue;
     }

@@ -4,6 +4,7 @@
 
 #include <QPainter>
 #include <QPixmap>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -113,7 +114,22 @@ void InspectTool::activate() {
 }
 
 void InspectTool::deactivate() {
+  marked_ = nullptr;
   highlight_->hide();
+}
+
+void InspectTool::update(float /*wall_dt*/, float /*ros_dt*/) {
+  if (marked_ == nullptr) {
+    return;
+  }
+  const std::vector<LabeledMeshDisplay*> meshes = shown_meshes(*context_);
+  if (std::find(meshes.begin(), meshes.end(), marked_) == meshes.end()) {
+    clear_answer("");
+  } else if (marked_->store().map_id() != map_id_) {
+    clear_answer("the mesh of the facet is gone");
+  } else {
+    highlight_->place(marked_->fixed_from_mesh());  // it may move in the fixed frame
+  }
 }
 
 int InspectTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
@@ -127,40 +143,45 @@ int InspectTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
     view->handleMouseEvent(event);
   }
   if (is_click) {
-    inspect(ray_through(event));
+    const Ogre::Vector3& eye = event.viewport->getCamera()->getDerivedPosition();
+    inspect(ray_through(event), {eye.x, eye.y, eye.z});
   }
   return Render;
 }
 
-void InspectTool::inspect(const PickRay& ray) {
+void InspectTool::inspect(const PickRay& ray, const Eigen::Vector3d& eye) {
+  const std::vector<LabeledMeshDisplay*> meshes = shown_meshes(*context_);
   std::optional<FacetInfo> nearest;
-  std::string display;
-  for (const LabeledMeshDisplay* mesh : shown_meshes(*context_)) {
-    std::optional<FacetInfo> facet = mesh->inspect(ray);
+  const LabeledMeshDisplay* display = nullptr;
+  for (const LabeledMeshDisplay* mesh : meshes) {
+    std::optional<FacetInfo> facet = mesh->inspect(ray, eye);
     if (facet && (!nearest || facet->distance < nearest->distance)) {
       nearest = std::move(facet);
-      display = mesh->getNameStd();
+      display = mesh;
     }
   }
   if (!nearest) {
-    clear_answer(shown_meshes(*context_).empty()
-                     ? "no display facet_mapping/LabeledMesh is switched on"
-                     : "no facet there");
+    clear_answer(meshes.empty() ? "no display facet_mapping/LabeledMesh is switched on"
+                                : "no facet there");
     return;
   }
-  show(display, *nearest);
+  show(*display, *nearest);
   publish(*nearest);
 }
 
-void InspectTool::show(const std::string& display, const FacetInfo& facet) {
-  display_->setStdString(display);
+void InspectTool::show(const LabeledMeshDisplay& display, const FacetInfo& facet) {
+  display_->setString(display.getName());
   for (std::size_t k = 0; k < kAnswers.size(); ++k) {
     answer_[k]->setStdString(kAnswers[k].text(facet));
   }
+  marked_ = &display;
+  map_id_ = display.store().map_id();
   highlight_->show(facet);
+  highlight_->place(display.fixed_from_mesh());
   const std::string text = describe(facet);
   setStatus(QString::fromStdString(text));
-  ROS_INFO_STREAM("Facet of " << display << ": " << text);  // to be kept and copied from
+  // To be kept and copied from.
+  ROS_INFO_STREAM("Facet of " << display.getNameStd() << ": " << text);
 }
 
 void InspectTool::publish(const FacetInfo& facet) {
@@ -177,6 +198,7 @@ void InspectTool::publish(const FacetInfo& facet) {
 }
 
 void InspectTool::clear_answer(const QString& text) {
+  marked_ = nullptr;
   highlight_->hide();
   display_->setString("");
   for (rviz::StringProperty* property : answer_) {

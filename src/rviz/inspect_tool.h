@@ -19,6 +19,8 @@
 
 namespace facet_mapping {
 
+class LabeledMeshDisplay;
+
 /// A click tells what is known of a facet; dragging moves the view as without the tool.
 class InspectTool : public rviz::Tool {
   Q_OBJECT
@@ -30,14 +32,15 @@ class InspectTool : public rviz::Tool {
   void onInitialize() override;
   void activate() override;
   void deactivate() override;
+  void update(float wall_dt, float ros_dt) override;
   int processMouseEvent(rviz::ViewportMouseEvent& event) override;
 
  private Q_SLOTS:
   void advertise();
 
  private:  // NOLINT(readability-redundant-access-specifiers): ends the slots for moc
-  void inspect(const PickRay& ray);
-  void show(const std::string& display, const FacetInfo& facet);
+  void inspect(const PickRay& ray, const Eigen::Vector3d& eye);
+  void show(const LabeledMeshDisplay& display, const FacetInfo& facet);
   void publish(const FacetInfo& facet);
   void clear_answer(const QString& text);
 
@@ -47,7 +50,9 @@ class InspectTool : public rviz::Tool {
   ros::NodeHandle nh_;
   ros::Publisher publisher_;
   std::unique_ptr<FacetHighlight> highlight_;
-  int pressed_x_ = 0;  // pixels
+  const LabeledMeshDisplay* marked_ = nullptr;  // whose facet is highlighted; may be gone
+  std::string map_id_;                          // of its mesh
+  int pressed_x_ = 0;                           // pixels
   int pressed_y_ = 0;
 };
 

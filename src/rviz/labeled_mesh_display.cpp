@@ -3,12 +3,12 @@
 #include "labeled_mesh_display.h"
 
 #include <algorithm>
-#include <exception>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
+#include "qt_colors.h"
 #include <pluginlib/class_list_macros.hpp>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
@@ -16,8 +16,8 @@
 namespace facet_mapping {
 namespace {
 
-// Uploading takes at most as long as drawing took, within these bounds (seconds): the window stays
-// alive, and a large mesh still comes within a few frames.
+// Uploading takes at most as long as the turn before took, within these bounds (seconds): the
+// window stays alive, and a large mesh still comes within a few frames.
 constexpr double kMinUploadTime = 0.01;
 constexpr double kMaxUploadTime = 0.15;
 constexpr std::size_t kManyFacets = 200000;  // less leaves no holes worth the time
@@ -28,12 +28,6 @@ void give_back_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
-}
-
-Rgb rgb_of(const QColor& color) {
-  return {static_cast<std::uint8_t>(color.red()),
-          static_cast<std::uint8_t>(color.green()),
-          static_cast<std::uint8_t>(color.blue())};
 }
 
 }  // namespace
@@ -124,6 +118,11 @@ void LabeledMeshDisplay::load(const rviz::Config& config) {
   Display::load(config);
 }
 
+void LabeledMeshDisplay::save(rviz::Config config) const {
+  Display::save(config);
+  class_properties_->save(config.mapMakeChild("Classes"));
+}
+
 void LabeledMeshDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
   topic_->setString(topic);
 }
@@ -182,7 +181,7 @@ MeshLook LabeledMeshDisplay::look() const {
   const float low = min_height_->getFloat();
   look.height_range = {low, std::max(max_height_->getFloat(), low + 1.0e-3F)};
   look.full_views = full_views_->getFloat();
-  look.flat_color = rgb_of(flat_color_->getColor());
+  look.flat_color = from_qt(flat_color_->getColor());
   return look;
 }
 
@@ -207,6 +206,7 @@ void LabeledMeshDisplay::upload_palette() {
 
 void LabeledMeshDisplay::show_new_classes() {
   class_properties_->update(&classes_);
+  is_shape_new_ = true;  // a class that is named now is to be seen in the tree
   upload_palette();
 }
 
@@ -255,9 +255,9 @@ void LabeledMeshDisplay::update_height_range() {
   if (!auto_height_->getBool() || box.isEmpty()) {
     return;
   }
-  const auto base = static_cast<double>(scene_node_->getPosition().z);
-  min_height_->setFloat(static_cast<float>(base + box.min().z()));
-  max_height_->setFloat(static_cast<float>(base + box.max().z()));
+  const Eigen::AlignedBox3d in_fixed_frame = box.transformed(fixed_from_mesh());
+  min_height_->setFloat(static_cast<float>(in_fixed_frame.min().z()));
+  max_height_->setFloat(static_cast<float>(in_fixed_frame.max().z()));
 }
 
 std::size_t LabeledMeshDisplay::waiting() const {
@@ -272,13 +272,13 @@ void LabeledMeshDisplay::report() {
       give_back_memory();
     }
     class_properties_->show_shares(classes_, area_shares(view_->area_by_slot_m2()));
-    update_height_range();
   }
+  update_height_range();
   if (topic_->getTopicStd().empty()) {
     setStatus(rviz::StatusProperty::Error, "Topic", "no topic is set");
   } else if (source_->publishers() == 0) {
     setStatus(rviz::StatusProperty::Warn, "Topic", "nobody publishes " + topic_->getTopic());
-  } else if (source_->messages() == 0) {
+  } else if (source_->messages() == 0 && !store_.has_mesh()) {
     setStatus(rviz::StatusProperty::Warn, "Topic", "no message received yet");
   } else {
     setStatus(rviz::StatusProperty::Ok,
@@ -317,7 +317,7 @@ void LabeledMeshDisplay::report_faults() {
   if (!source_->problem().empty()) {
     setStatus(rviz::StatusProperty::Warn, "Sequence", QString::fromStdString(source_->problem()));
   } else if (source_->is_waiting_for_full()) {
-    setStatus(rviz::StatusProperty::Warn, "Sequence", "missed a message: asking get_mesh");
+    setStatus(rviz::StatusProperty::Warn, "Sequence", "asking get_mesh for the whole mesh");
   } else if (source_->gaps() > 0) {
     setStatus(rviz::StatusProperty::Ok,
               "Sequence",

@@ -29,6 +29,7 @@ class LabeledMeshDisplay : public rviz::Display {
   ~LabeledMeshDisplay() override;
 
   void load(const rviz::Config& config) override;
+  void save(rviz::Config config) const override;
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
   void setTopic(const QString& topic, const QString& datatype) override;
@@ -37,8 +38,11 @@ class LabeledMeshDisplay : public rviz::Display {
   std::string topic() const { return topic_->getTopicStd(); }
   const ChunkStore& store() const { return store_; }
   const ClassTable& classes() const { return classes_; }
-  /// The facet that is seen first along a ray of the fixed frame; nothing if there is none.
-  std::optional<FacetInfo> inspect(const PickRay& ray) const;
+  /// The facet that is seen first along a ray of the fixed frame, `eye` the camera's place there;
+  /// nothing if there is none.
+  std::optional<FacetInfo> inspect(const PickRay& ray, const Eigen::Vector3d& eye) const;
+  /// Where the mesh stands at the moment.
+  Eigen::Isometry3d fixed_from_mesh() const;
   /// Of the chunks that the camera sees, in the axes of store().frame_id(); empty if there is none.
   Eigen::AlignedBox3d box_in_view(const Ogre::Camera& camera) const;
 
@@ -57,7 +61,6 @@ class LabeledMeshDisplay : public rviz::Display {
   void add_limit_properties();
   void upload_palette();
   MeshLook look() const;
-  Eigen::Isometry3d fixed_from_mesh() const;
   void place();
   void update_height_range();
   void show_new_classes();

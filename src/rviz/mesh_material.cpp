@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_material.h"
 
-#include <limits>
+#include <utility>
 
 #include "mesh_shaders.h"
+#include "ogre_helpers.h"
 #include <OgreGpuProgramParams.h>
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreHighLevelGpuProgram.h>
@@ -17,11 +18,6 @@
 namespace facet_mapping {
 namespace {
 
-// Debian's rviz aborts on materials in the group "rviz".
-const Ogre::String& group() {
-  return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
-}
-
 std::string unique_name() {
   static int count = 0;
   return "facet_mapping/LabeledMesh" + std::to_string(count++);
@@ -29,13 +25,15 @@ std::string unique_name() {
 
 constexpr const char* kVertexProgram = "facet_mapping/mesh_vertex";
 constexpr const char* kFragmentProgram = "facet_mapping/mesh_fragment";
+constexpr const char* kDepthProgram = "facet_mapping/mesh_depth";
+constexpr const char* kPickProgram = "facet_mapping/mesh_pick";
 constexpr float kOpaque = 0.998F;
 constexpr float kEdgeDarkening = 0.35F;  // of edges drawn over faces
 
 void make_program(const char* name, Ogre::GpuProgramType type, const char* source) {
   auto& manager = Ogre::HighLevelGpuProgramManager::getSingleton();
-  if (!manager.getByName(name, group())) {
-    manager.createProgram(name, group(), "glsl", type)->setSource(source);
+  if (!manager.getByName(name, resource_group())) {
+    manager.createProgram(name, resource_group(), "glsl", type)->setSource(source);
   }
 }
 
@@ -77,12 +75,21 @@ void set_fragment_uniforms(const MeshLook& look, Ogre::GpuProgramParameters* par
 MeshMaterial::MeshMaterial() : name_(unique_name()) {
   make_program(kVertexProgram, Ogre::GPT_VERTEX_PROGRAM, kMeshVertexShader);
   make_program(kFragmentProgram, Ogre::GPT_FRAGMENT_PROGRAM, kMeshFragmentShader);
+  make_program(kDepthProgram, Ogre::GPT_FRAGMENT_PROGRAM, kMeshDepthShader);
+  make_program(kPickProgram, Ogre::GPT_FRAGMENT_PROGRAM, kMeshPickShader);
   make_texture();
-  material_ = Ogre::MaterialManager::getSingleton().create(name_, group());
+  material_ = Ogre::MaterialManager::getSingleton().create(name_, resource_group());
   material_->setReceiveShadows(false);
-  material_->getTechnique(0)->removeAllPasses();
-  add_pass();
-  add_pass();
+  material_->removeAllTechniques();
+  add_pass(kFragmentProgram, material_->createTechnique());
+  // rviz's tools draw the scene by schemes of their own; what they put in the place of a material
+  // that lacks these knows nothing of packed vertices and hidden classes.
+  for (const auto& [scheme, program] :
+       {std::pair("Depth", kDepthProgram), {"Pick", kPickProgram}, {"Pick1", kPickProgram}}) {
+    Ogre::Technique* technique = material_->createTechnique();
+    technique->setSchemeName(scheme);
+    add_pass(program, technique);
+  }
   set_look(MeshLook(), false);
 }
 
@@ -93,7 +100,7 @@ MeshMaterial::~MeshMaterial() {
 
 void MeshMaterial::make_texture() {
   texture_ = Ogre::TextureManager::getSingleton().createManual(name_ + "/palette",
-                                                               group(),
+                                                               resource_group(),
                                                                Ogre::TEX_TYPE_2D,
                                                                ClassTable::kSlots,
                                                                ClassTable::kRows,
@@ -103,19 +110,21 @@ void MeshMaterial::make_texture() {
   set_palette(ClassTable().texels());
 }
 
-void MeshMaterial::add_pass() {
-  Ogre::Pass* pass = material_->getTechnique(0)->createPass();
+void MeshMaterial::add_pass(const char* fragment_program, Ogre::Technique* technique) {
+  Ogre::Pass* pass = technique->createPass();
   pass->setLightingEnabled(false);
   pass->setVertexProgram(kVertexProgram);
-  pass->setFragmentProgram(kFragmentProgram);
+  pass->setFragmentProgram(fragment_program);
   const Ogre::GpuProgramParametersSharedPtr vertex = pass->getVertexProgramParameters();
   vertex->setIgnoreMissingParams(true);
   vertex->setNamedConstant("palette", 0);
   vertex->setNamedAutoConstant("to_screen", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
   vertex->setNamedAutoConstant("to_view", Ogre::GpuProgramParameters::ACT_WORLDVIEW_MATRIX);
   vertex->setNamedAutoConstant("to_world", Ogre::GpuProgramParameters::ACT_WORLD_MATRIX);
-  pass->getFragmentProgramParameters()->setIgnoreMissingParams(true);
-  pass->getFragmentProgramParameters()->setNamedConstant("palette", 0);
+  const Ogre::GpuProgramParametersSharedPtr fragment = pass->getFragmentProgramParameters();
+  fragment->setIgnoreMissingParams(true);
+  fragment->setNamedConstant("palette", 0);
+  fragment->setNamedAutoConstant("far_clip", Ogre::GpuProgramParameters::ACT_FAR_CLIP_DISTANCE);
   Ogre::TextureUnitState* unit = pass->createTextureUnitState();
   unit->setTexture(texture_);
   unit->setTextureFiltering(Ogre::TFO_NONE);
@@ -130,7 +139,7 @@ void MeshMaterial::set_look(const MeshLook& look, bool is_translucent) {
     technique->removePass(1);
   }
   if (look.style == MeshStyle::kBoth && technique->getNumPasses() < 2) {
-    add_pass();
+    add_pass(kFragmentProgram, technique);
   }
   for (unsigned short k = 0; k < technique->getNumPasses(); ++k) {
     Ogre::Pass* pass = technique->getPass(k);
@@ -140,6 +149,12 @@ void MeshMaterial::set_look(const MeshLook& look, bool is_translucent) {
     set_common(look, is_blended, pass);
     set_vertex_uniforms(
         look, k == 1 ? kEdgeDarkening : 1.0F, pass->getVertexProgramParameters().get());
+    set_fragment_uniforms(look, pass->getFragmentProgramParameters().get());
+  }
+  for (unsigned short k = 1; k < material_->getNumTechniques(); ++k) {
+    Ogre::Pass* pass = material_->getTechnique(k)->getPass(0);
+    set_common(look, false, pass);
+    set_vertex_uniforms(look, 1.0F, pass->getVertexProgramParameters().get());
     set_fragment_uniforms(look, pass->getFragmentProgramParameters().get());
   }
 }

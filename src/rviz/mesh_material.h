@@ -62,7 +62,7 @@ class MeshMaterial {
   void set_palette(const std::vector<std::uint8_t>& texels);
 
  private:
-  void add_pass();
+  void add_pass(const char* fragment_program, Ogre::Technique* technique);
   void make_texture();
 
   std::string name_;  // unique

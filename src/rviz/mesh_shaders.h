@@ -83,4 +83,37 @@ void main() {
 }
 )";
 
+// What rviz's tools measure with: the depth as rviz/glsl120/include/pack_depth.frag packs it.
+constexpr const char* kMeshDepthShader = R"(#version 130
+uniform float max_distance;
+uniform float cut_height;
+uniform float far_clip;
+flat in vec4 rgba;
+in vec4 place;
+void main() {
+  if (rgba.a == 0.0 || place.w > cut_height ||
+      dot(place.xyz, place.xyz) > max_distance * max_distance) {
+    discard;
+  }
+  vec3 parts = fract(-place.z / far_clip * vec3(65536.0, 256.0, 1.0));
+  parts -= parts.xxy * vec3(0.0, 1.0 / 256.0, 1.0 / 256.0);
+  gl_FragColor = vec4(parts.zyx, 1.0);
+}
+)";
+
+// What rviz selects with: black hides what lies behind and cannot be selected itself.
+constexpr const char* kMeshPickShader = R"(#version 130
+uniform float max_distance;
+uniform float cut_height;
+flat in vec4 rgba;
+in vec4 place;
+void main() {
+  if (rgba.a == 0.0 || place.w > cut_height ||
+      dot(place.xyz, place.xyz) > max_distance * max_distance) {
+    discard;
+  }
+  gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);
+}
+)";
+
 }  // namespace facet_mapping

@@ -10,7 +10,9 @@ namespace facet_mapping {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;  // deltas, which must not be lost
-constexpr std::size_t kMaxKept = 1000;     // messages; a full mesh replaces them anyway
+constexpr std::size_t kMaxKept = 100;      // messages; a full mesh replaces them anyway
+constexpr std::chrono::seconds kSilence(1);
+constexpr std::chrono::seconds kPatience(30);  // for an answer of get_mesh
 
 }  // namespace
 
@@ -53,6 +55,8 @@ void MeshSource::unsubscribe() {
   get_mesh_ =
       std::make_unique<ServiceCaller<GetMesh>>();  // an answer under way is no longer wanted
   kept_.clear();
+  silent_since_.reset();
+  has_asked_newly_ = false;
   messages_ = 0;
   gaps_ = 0;
   has_palette_ = false;
@@ -60,8 +64,29 @@ void MeshSource::unsubscribe() {
   topic_.clear();
 }
 
+/// Another subscriber of the same process may have the connection already: then the full mesh of a
+/// newcomer does not come.
+void MeshSource::ask_if_nothing_comes(const ChunkStore& store) {
+  if (has_asked_newly_ || store.has_mesh() || publishers() == 0) {
+    silent_since_.reset();
+    return;
+  }
+  if (!silent_since_) {
+    silent_since_ = Clock::now();
+  } else if (Clock::now() - *silent_since_ > kSilence) {
+    has_asked_newly_ = true;
+    ask_for_full();
+  }
+}
+
+void MeshSource::give_up_waiting() {
+  if (get_mesh_->is_running() && Clock::now() - asked_ > kPatience) {
+    get_mesh_->break_off();
+  }
+}
+
 void MeshSource::ask_for_full() {
-  ++gaps_;
+  asked_ = Clock::now();
   get_mesh_->call(name_beside(topic_, "get_mesh"), {});
 }
 
@@ -75,6 +100,7 @@ bool MeshSource::apply(const LabeledMesh::Ptr& message, ChunkStore* store) {
   const ChunkStore::Result result = store->apply(std::move(*message));
   if (result == ChunkStore::Result::kGap) {
     kept_.push_back(message);
+    ++gaps_;
     ask_for_full();
   }
   return result == ChunkStore::Result::kApplied;
@@ -88,6 +114,9 @@ bool MeshSource::take_answer(ChunkStore* store) {
   std::vector<LabeledMesh::Ptr> kept = std::move(kept_);
   kept_.clear();
   if (!answer->problem.empty() || answer->response.status.code != Status::OK) {
+    if (kept.empty()) {
+      return false;  // no mesh yet, or no such service: nothing was missed
+    }
     problem_ = "missed a message; subscribed anew to get the whole mesh, since " +
                (answer->problem.empty() ? answer->response.status.message : answer->problem);
     subscribe_mesh();
@@ -133,6 +162,10 @@ MeshSource::News MeshSource::poll(ChunkStore* store, ClassTable* classes) {
   }
   news.mesh = take_answer(store);
   news.mesh |= take_messages(store);
+  if (!topic_.empty() && !get_mesh_->is_running()) {
+    ask_if_nothing_comes(*store);
+  }
+  give_up_waiting();
   return news;
 }
 

@@ -4,6 +4,7 @@
 // Where a display gets its mesh: the topic, the palette beside it, and get_mesh after a gap.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -58,6 +59,8 @@ class MeshSource {
   bool take_answer(ChunkStore* store);
   bool take_messages(ChunkStore* store);
   void ask_for_full();
+  void ask_if_nothing_comes(const ChunkStore& store);
+  void give_up_waiting();
 
   struct Inbox {
     std::mutex mutex;
@@ -72,6 +75,10 @@ class MeshSource {
   ros::Subscriber mesh_sub_;
   ros::Subscriber palette_sub_;
   std::unique_ptr<ServiceCaller<GetMesh>> get_mesh_;  // never null
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point asked_;                        // get_mesh, last
+  std::optional<Clock::time_point> silent_since_;  // a publisher is there, but no mesh; once only
+  bool has_asked_newly_ = false;                   // since subscribing
   std::size_t messages_ = 0;
   std::size_t gaps_ = 0;
   bool has_palette_ = false;

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "ogre_helpers.h"
+
 namespace facet_mapping {
 namespace {
 
@@ -54,7 +56,7 @@ void MeshView::submit_changed(ChunkStore* store, ClassTable* classes) {
     if (!chunk) {
       return;
     }
-    newest_[{chunk->key[0], chunk->key[1], chunk->key[2]}] = ++tickets_;
+    newest_[key_of(*chunk)] = ++tickets_;
     ClassSlots slots = classes->slots_of(chunk->labels);
     builder_.submit(std::move(*chunk), std::move(slots), tickets_);
   }
@@ -78,9 +80,7 @@ void MeshView::show(const BuiltChunk& chunk) {
     shown.renderable->setMaterial(material_.material());
     shown.node = parent_->createChildSceneNode();
     const VertexPacking& packing = shown.renderable->packing();
-    shown.node->setPosition(static_cast<float>(packing.center().x()),
-                            static_cast<float>(packing.center().y()),
-                            static_cast<float>(packing.center().z()));
+    shown.node->setPosition(to_ogre(packing.center()));
     shown.node->setScale(Ogre::Vector3(static_cast<float>(packing.step_m())));
     shown.node->attachObject(shown.renderable.get());
   }

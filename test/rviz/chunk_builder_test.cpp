@@ -52,10 +52,12 @@ TEST(ChunkBuilder, EveryChunkComesBackAsIfMadeAtOnce) {
   }
 }
 
-TEST(ChunkBuilder, AnOriginThatIsNotFiniteLeavesAllFacetsOut) {
+class ChunkOrigin : public ::testing::TestWithParam<double> {};
+
+TEST_P(ChunkOrigin, ThatIsNoPlaceLeavesAllFacetsOut) {
   ChunkBuilder builder;
   LabeledMeshChunk chunk = unit_square(0);
-  chunk.origin.y = std::numeric_limits<double>::infinity();
+  chunk.origin.y = GetParam();
   ClassTable classes;
   ClassSlots slots = classes.slots_of(chunk.labels);
   builder.submit(std::move(chunk), std::move(slots), 7);
@@ -63,6 +65,13 @@ TEST(ChunkBuilder, AnOriginThatIsNotFiniteLeavesAllFacetsOut) {
   EXPECT_EQ(taken.at(7).geometry.bad_facets, 2U);
   EXPECT_TRUE(taken.at(7).geometry.indices.empty());
 }
+
+INSTANTIATE_TEST_SUITE_P(ChunkBuilder,
+                         ChunkOrigin,
+                         ::testing::Values(std::numeric_limits<double>::infinity(),
+                                           std::numeric_limits<double>::quiet_NaN(),
+                                           1.0e30,
+                                           -1.0e305));
 
 TEST(ChunkBuilder, EndsWithWorkLeft) {
   ChunkBuilder builder;

@@ -65,6 +65,7 @@ TEST_F(FacetPick, MissesWhatIsNotDrawn) {
   EXPECT_FALSE(pick_from_above(0.7, 0.2));
   EXPECT_TRUE(pick_from_above(0.2, 0.7));
   filter_.min_views = 0;
+  filter_.eye = {100.7, 200.2, 13.0};
   filter_.max_distance = 9.9;
   EXPECT_FALSE(pick_from_above(0.7, 0.2));
   filter_.max_distance = 10.1;

@@ -12,6 +12,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+import tf2_ros
 from geometry_msgs.msg import PointStamped
 from rosgraph_msgs.msg import Log
 
@@ -62,12 +63,13 @@ class InspectFacetTest(unittest.TestCase):
                 cls.lines.append(message.msg)
                 cls.news.notify_all()
 
-    def show(self, properties="", chunks=None):
+    def show(self, properties="", chunks=None, frame="map", road=ON_ROAD):
         """Loads the configuration and waits for the mesh."""
-        self.mapper.show(mesh_messages.mesh(chunks or mesh_messages.four_fields(), map_id=self.id()))
+        self.mapper.show(mesh_messages.mesh(chunks or mesh_messages.four_fields(), map_id=self.id(),
+                                            frame=frame))
         self.window.load(properties)
-        picture = self.window.wait_for(lambda p: is_near(p.at(*ON_ROAD), mesh_messages.CLASSES[0][1]))
-        self.assertTrue(is_near(picture.at(*ON_ROAD), mesh_messages.CLASSES[0][1]))
+        picture = self.window.wait_for(lambda p: is_near(p.at(*road), mesh_messages.CLASSES[0][1]))
+        self.assertTrue(is_near(picture.at(*road), mesh_messages.CLASSES[0][1]))
         # Loading has made the tool anew: what it sends before we are connected would be lost.
         end = time.monotonic() + rviz_window.TIMEOUT_S
         while not self.is_tool_connected():
@@ -136,6 +138,26 @@ class InspectFacetTest(unittest.TestCase):
         point, line = self.answer(*ON_ROAD)
         self.assertIn("normal (-0.60, 0.00, 0.80), slope 36.9 deg, area 3.906", line)
         self.assertAlmostEqual(point.point.z, 0.75 * ON_ROAD[0], delta=0.03)
+
+    def test_a_mesh_in_another_frame(self):
+        tf2_ros.StaticTransformBroadcaster().sendTransform(mesh_messages.turned_frame())
+        self.show(frame="odom", road=mesh_messages.turned(*ON_ROAD))
+        place, same = mesh_messages.turned(*ON_CAR), mesh_messages.turned(7.2, -4.6)
+        point, line = self.answer(*place)
+        self.assertEqual(point.header.frame_id, "odom")
+        self.assertAlmostEqual(point.point.x, ON_CAR[0], delta=0.03)
+        self.assertAlmostEqual(point.point.y, ON_CAR[1], delta=0.03)
+        self.assertIn("car (3)", line)
+        picture = self.picture(lambda p: is_near(p.at(*same), highlighted(CAR)))
+        self.assertTrue(is_near(picture.at(*same), highlighted(CAR)), picture.at(*same))
+
+    def test_the_mark_leaves_with_the_map(self):
+        self.show()
+        self.answer(*ON_CAR)
+        self.picture(lambda p: is_near(p.at(7.2, -4.6), highlighted(CAR)))
+        self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id="the next"))
+        picture = self.picture(lambda p: is_near(p.at(7.2, -4.6), CAR))
+        self.assertTrue(is_near(picture.at(7.2, -4.6), CAR))
 
     def test_what_is_hidden_is_not_hit(self):
         self.show("Classes:\n  Value: true\n  car:\n    Value: false")

@@ -5,11 +5,14 @@
 pictures are kept."""
 import os
 import sys
+import time
 import unittest
 
 import rosgraph
 import rospy
 import rostest
+import tf2_ros
+from geometry_msgs.msg import PointStamped
 
 import mesh_messages
 import rviz_window
@@ -117,13 +120,93 @@ class LabeledMeshDisplayTest(unittest.TestCase):
         self.window.load("Unseen Facets: false")
         self.expect({**COLORS, 2: BACKGROUND})
 
+    def expect_edge(self, color):
+        """Along the edge of facets at x = 2.5 m, within the first field."""
+        def is_there(picture):
+            column, row = self.window.view.pixel_of(2.5, POINTS[0][1])
+            return any(is_near(picture.pixel(column + k, row), color) for k in range(-2, 3))
+
+        self.assertTrue(is_there(self.window.wait_for(is_there)), "no such edge")
+
     def test_wireframe_leaves_the_middle_free(self):
         self.window.load("Style: wireframe")
+        self.expect_edge(COLORS[0])
         self.expect({k: BACKGROUND for k in COLORS})
 
     def test_edges_over_faces(self):
         self.window.load("Style: both")
+        self.expect_edge(tuple(0.35 * value for value in COLORS[0]))
         self.expect(COLORS)
+
+    def class_boxes(self):
+        """Rows on the screen of the last check boxes of the tree: one per class."""
+        picture = self.window.picture()
+        dark = [row for row in range(90, 485)
+                if any(sum(picture.pixel(column, row)) < 150 for column in range(178, 185))]
+        firsts = [row for row in dark if row - 1 not in dark]
+        self.assertGreater(len(firsts), 5)
+        return [row + 3 for row in firsts[-5:]]
+
+    def test_the_box_of_a_class_switches_it_off_and_on(self):
+        self.window.load()
+        self.expect(COLORS)
+        _, road, _, _, car = self.class_boxes()
+        calls = self.mapper.calls
+        self.window.click(181, road)
+        self.expect({**COLORS, 0: BACKGROUND})
+        self.window.click(181, car)
+        self.expect({**COLORS, 0: BACKGROUND, 3: BACKGROUND})
+        self.window.click(181, road)
+        self.expect({**COLORS, 3: BACKGROUND})
+        self.assertEqual(self.mapper.calls, calls)
+
+    def test_a_mesh_in_another_frame(self):
+        tf2_ros.StaticTransformBroadcaster().sendTransform(mesh_messages.turned_frame())
+        self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id="turned",
+                                            frame="odom"))
+        self.window.load("Color Mode:\n  Value: class\n  Auto Height: true")
+
+        def is_right(picture):
+            return all(is_near(picture.at(*mesh_messages.turned(*POINTS[k])), COLORS[k])
+                       for k in COLORS)
+
+        self.assertTrue(is_right(self.window.wait_for(is_right)))
+
+    def test_two_displays_of_one_topic(self):
+        path = self.window.write_config("Alpha: 0")  # the first, which has the connection
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        second = ("    - Class: facet_mapping/LabeledMesh\n      Name: Second\n      Enabled: true\n"
+                  "      Topic: /mapper/mesh\n      Lighting: false\n      Unseen Facets: true\n")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("  Tools:\n", second + "  Tools:\n"))
+        self.window.load_file(path)
+        self.expect(COLORS)
+
+    def test_what_rvizs_own_tools_hit(self):
+        points = []
+        subscriber = rospy.Subscriber("/clicked_point", PointStamped, points.append)
+        self.addCleanup(subscriber.unregister)
+        self.window.load("Classes:\n  Value: true\n  building:\n    Value: false")
+        self.expect({**COLORS, 1: BACKGROUND})
+        for number, height in ((3, 2.0), (0, 0.0)):
+            self.click_point(points, *POINTS[number])
+            self.assertEqual(len(points), 1)
+            seen = points[0].point
+            for value, expected in zip((seen.x, seen.y, seen.z), (*POINTS[number], height)):
+                self.assertAlmostEqual(value, expected, delta=0.1)
+        self.click_point(points, *POINTS[1], patience_s=4)
+        self.assertEqual(points, [], "hit what is hidden")
+
+    def click_point(self, points, x, y, patience_s=rviz_window.TIMEOUT_S):
+        """With the tool PublishPoint, which ends with the point."""
+        points.clear()
+        end = time.monotonic() + patience_s
+        while not points and time.monotonic() < end:
+            self.window.press("c")  # again, since a point sent before we are connected is lost
+            time.sleep(0.3)
+            self.window.click_ground(x, y)
+            time.sleep(0.7)
 
     def test_a_delta_changes_one_chunk_and_removes_another(self):
         self.window.load()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """LabeledMesh messages of simple made-up meshes, for looking at them in rviz."""
 from facet_mapping.msg import ClassPalette, LabeledMesh, LabeledMeshChunk, PaletteClass
-from geometry_msgs.msg import Point32
+from geometry_msgs.msg import Point32, Quaternion, TransformStamped, Vector3
 
 CLASSES = {0: ("road", (128, 64, 128)), 1: ("building", (220, 20, 60)),
            2: ("vegetation", (107, 142, 35)), 3: ("car", (0, 0, 230))}
@@ -46,6 +46,20 @@ def mesh(chunks, sequence=1, full=True, map_id="made-up", frame="map"):
                           palette_version=1)
     message.header.frame_id = frame
     return message
+
+
+def turned(x, y):
+    """From the frame of `turned_frame` to its parent."""
+    return 2.0 - y, 1.0 + x
+
+
+def turned_frame(parent="map", child="odom"):
+    """A quarter turn to the left, then (2, 1, 0)."""
+    transform = TransformStamped(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.transform.translation = Vector3(2.0, 1.0, 0.0)
+    transform.transform.rotation = Quaternion(0.0, 0.0, 0.5 ** 0.5, 0.5 ** 0.5)
+    return transform
 
 
 def four_fields():

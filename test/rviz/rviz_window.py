@@ -108,7 +108,9 @@ class RvizWindow:
         self.rviz.wait(timeout=TIMEOUT_S)
 
     def load(self, properties=""):
-        path = self.write_config(properties)
+        self.load_file(self.write_config(properties))
+
+    def load_file(self, path):
         rospy.ServiceProxy("/rviz/load_config_discarding_changes", SendFilePath)(path)
 
     def is_alive(self):

@@ -23,7 +23,7 @@ struct BuiltChunk {
   ChunkKey key{};
   std::uint64_t ticket = 0;                          ///< as it was submitted
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, in the mesh's frame
-  /// With coarse levels, but without `vertices`; empty if the origin is not finite.
+  /// With coarse levels, but without `vertices`; empty if the origin is no place.
   ChunkGeometry geometry;
   VertexPacking packing;
   std::vector<PackedVertex> vertices;

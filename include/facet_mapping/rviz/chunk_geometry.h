@@ -13,9 +13,14 @@
 #include <Eigen/Geometry>
 #include <facet_mapping/LabeledMeshChunk.h>
 
+#include "facet_mapping/mapping/chunked_mesh.h"
 #include "facet_mapping/rviz/class_table.h"
 
 namespace facet_mapping {
+
+inline ChunkKey key_of(const LabeledMeshChunk& chunk) {
+  return {chunk.key[0], chunk.key[1], chunk.key[2]};
+}
 
 /// `normal` and `facet` are those of the one facet whose last corner it
 /// is: the shader takes them unblended (`flat`) from there.

@@ -36,7 +36,8 @@ struct ClassStyle {
 class ClassTable {
  public:
   static constexpr std::size_t kSlots = 256;
-  /// Rows of the texture: class colours by slot, a ramp from low to high, colours of chunks.
+  /// Rows of the texture: class colours by slot, a ramp from low to high, colours of chunks; the
+  /// fourth only makes it a power of two.
   static constexpr std::size_t kRows = 4;
 
   ClassTable();

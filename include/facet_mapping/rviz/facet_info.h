@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "facet_mapping/geometry/label.h"
 #include "facet_mapping/mapping/chunked_mesh.h"
@@ -24,11 +24,13 @@ struct FacetInfo {
   std::string frame_id;                                ///< of the mesh
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where it was met, metres, frame_id
   double distance = 0.0;                               ///< from the eye, metres
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();        ///< `position` in the fixed frame
-  std::array<Eigen::Vector3d, 3> corners{};            ///< metres, fixed frame
+  std::array<Eigen::Vector3d, 3> corners{};            ///< metres, frame_id
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< to free space, fixed frame; or zero
   double area_m2 = 0.0;
 };
+
+/// (b - a) x (c - a) of the corners, in frame_id: points to free space.
+Eigen::Vector3d cross_of(const FacetInfo& facet);
 
 /// Between the normal and z of the fixed frame: 0 is a floor, 90 a wall, 180 a ceiling. Nothing for
 /// a facet without area. Degrees.

@@ -24,7 +24,9 @@ struct PickFilter {
   std::uint8_t min_confidence = 0;  ///< 0..255
   std::uint8_t min_views = 0;
   bool cull_back_faces = false;
-  double max_distance = std::numeric_limits<double>::infinity();  ///< from the ray's origin, metres
+  /// From `eye` (the ray's frame), where an orthographic camera's rays do not begin. Metres.
+  double max_distance = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
   /// What is more than `max_height` metres along `up` (length 1, the ray's frame) is not drawn.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   double max_height = std::numeric_limits<double>::infinity();
@@ -35,7 +37,7 @@ struct FacetHit {
   std::array<Eigen::Vector3d, 3> corners{};  ///< in the ray's frame
   std::array<std::uint8_t, 4> attributes{};  ///< FacetVertex::facet
 
-  /// (b - a) x (c - a): points to free space, its length is twice the area.
+  /// (b - a) x (c - a): points to free space.
   Eigen::Vector3d cross() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }
 };
 
