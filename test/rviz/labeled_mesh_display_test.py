@@ -24,6 +24,7 @@ POINTS = {0: (3.2, 6.8), 1: (-6.8, 4.3), 2: (-4.3, -5.7), 3: (6.8, -4.3)}
 COLORS = {number: rgb for number, (_, rgb) in mesh_messages.CLASSES.items()}
 TOLERANCE = 3  # of 255: rounding on the way through the graphics library
 RAMP_LOW, RAMP_HIGH = (40, 30, 110), (250, 230, 40)
+STATUS_COLORS = {"fine": (40, 120, 197), "warning": (192, 128, 0), "error": (192, 32, 32)}
 PICTURES = os.environ.get("FACET_MAPPING_PICTURES")
 
 
@@ -138,19 +139,26 @@ class LabeledMeshDisplayTest(unittest.TestCase):
         self.expect_edge(tuple(0.35 * value for value in COLORS[0]))
         self.expect(COLORS)
 
-    def class_boxes(self):
-        """Rows on the screen of the last check boxes of the tree: one per class."""
-        picture = self.window.picture()
-        dark = [row for row in range(90, 485)
-                if any(sum(picture.pixel(column, row)) < 150 for column in range(178, 185))]
-        firsts = [row for row in dark if row - 1 not in dark]
-        self.assertGreater(len(firsts), 5)
-        return [row + 3 for row in firsts[-5:]]
+    def boxes(self):
+        """Rows on the screen of what is dark where the tree has its check boxes, the values of
+        other properties among it; once the tree has come to rest."""
+        rows = []
+        end = time.monotonic() + rviz_window.TIMEOUT_S
+        while time.monotonic() < end:
+            picture = self.window.picture()
+            dark = [row for row in range(90, 485)
+                    if any(sum(picture.pixel(column, row)) < 150 for column in range(178, 185))]
+            before, rows = rows, [row + 3 for row in dark if row - 1 not in dark]
+            if rows == before:
+                break
+            time.sleep(1)
+        self.assertGreater(len(rows), 5)
+        return rows
 
     def test_the_box_of_a_class_switches_it_off_and_on(self):
         self.window.load()
         self.expect(COLORS)
-        _, road, _, _, car = self.class_boxes()
+        _, road, _, _, car = self.boxes()[-5:]
         calls = self.mapper.calls
         self.window.click(181, road)
         self.expect({**COLORS, 0: BACKGROUND})
@@ -172,16 +180,55 @@ class LabeledMeshDisplayTest(unittest.TestCase):
 
         self.assertTrue(is_right(self.window.wait_for(is_right)))
 
+    def expect_status(self, color):
+        """Of the rows with the display's name and its status in the tree."""
+        def is_right(picture):
+            shown = {kind for kind, rgb in STATUS_COLORS.items()
+                     if any(is_near(picture.pixel(column, row), rgb)
+                            for row in range(123, 162) for column in range(40, 170))}
+            return shown == {color}
+
+        path = PICTURES and os.path.join(PICTURES, self.id().split(".")[-1] + ".png")
+        self.assertTrue(is_right(self.window.wait_for(is_right, path)), "status not " + color)
+
+    def test_the_status_says_that_nobody_publishes(self):
+        self.window.topic = "/nowhere/mesh"
+        self.addCleanup(setattr, self.window, "topic", "/mapper/mesh")
+        self.window.load()
+        self.expect_status("warning")
+
+    def test_the_status_says_that_the_frame_is_unknown(self):
+        self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id="far",
+                                            frame="moon"))
+        self.window.load()
+        self.expect_status("error")
+        self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id="here"))
+        self.expect_status("fine")
+
     def test_two_displays_of_one_topic(self):
-        path = self.window.write_config("Alpha: 0")  # the first, which has the connection
+        path = self.window.write_config("Alpha: 0")
         with open(path, encoding="utf-8") as file:
             text = file.read()
-        second = ("    - Class: facet_mapping/LabeledMesh\n      Name: Second\n      Enabled: true\n"
+        second = ("    - Class: facet_mapping/LabeledMesh\n      Name: Second\n      Enabled: false\n"
                   "      Topic: /mapper/mesh\n      Lighting: false\n      Unseen Facets: true\n")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text.replace("  Tools:\n", second + "  Tools:\n"))
         self.window.load_file(path)
+        self.expect({k: BACKGROUND for k in COLORS})  # what was shown before has gone
+        end = time.monotonic() + rviz_window.TIMEOUT_S
+        while not self.is_seen(COLORS, 6) and time.monotonic() < end:
+            boxes = self.boxes()  # by now the first has the mesh, and the connection
+            self.window.click(181, 2 * boxes[-1] - boxes[-2])  # the next row, its box empty
         self.expect(COLORS)
+
+    def is_seen(self, colors, patience_s):
+        end = time.monotonic() + patience_s
+        while time.monotonic() < end:
+            picture = self.window.picture()
+            if all(is_near(picture.at(*POINTS[k]), color) for k, color in colors.items()):
+                return True
+            time.sleep(0.3)
+        return False
 
     def test_what_rvizs_own_tools_hit(self):
         points = []
