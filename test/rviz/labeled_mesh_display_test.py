@@ -156,16 +156,17 @@ class LabeledMeshDisplayTest(unittest.TestCase):
         return rows
 
     def test_the_box_of_a_class_switches_it_off_and_on(self):
-        self.window.load()
-        self.expect(COLORS)
-        _, road, _, _, car = self.boxes()[-5:]
+        self.window.load("Classes:\n  Value: true\n  building:\n    Value: false")
+        shown = {**COLORS, 1: BACKGROUND}  # unlike what was shown before
+        self.expect(shown)
+        _, road, _, car = self.boxes()[-4:]  # the empty box of the buildings is not dark
         calls = self.mapper.calls
         self.window.click(181, road)
-        self.expect({**COLORS, 0: BACKGROUND})
+        self.expect({**shown, 0: BACKGROUND})
         self.window.click(181, car)
-        self.expect({**COLORS, 0: BACKGROUND, 3: BACKGROUND})
+        self.expect({**shown, 0: BACKGROUND, 3: BACKGROUND})
         self.window.click(181, road)
-        self.expect({**COLORS, 3: BACKGROUND})
+        self.expect({**shown, 3: BACKGROUND})
         self.assertEqual(self.mapper.calls, calls)
 
     def test_a_mesh_in_another_frame(self):
