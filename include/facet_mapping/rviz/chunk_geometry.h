@@ -32,7 +32,7 @@ struct FacetVertex {
 
 /// The chunk for the far view, its vertices drawn together on a grid.
 struct CoarseLevel {
-  float cell_m = 0.0F;  ///< edge of the grid's cells: nothing leaves its cell
+  float cell_m = 0.0F;                 ///< edge of the grid's cells: nothing leaves its cell
   std::vector<std::uint32_t> indices;  ///< as those of ChunkGeometry
 };
 
