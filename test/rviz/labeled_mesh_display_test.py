@@ -206,6 +206,29 @@ class LabeledMeshDisplayTest(unittest.TestCase):
         self.mapper.show(mesh_messages.mesh(mesh_messages.four_fields(), map_id="here"))
         self.expect_status("fine")
 
+    def shipped(self, name, topic):
+        """A configuration of the package, with the stand-in's mesh in plain colours."""
+        text = (rviz_window.HERE.parents[1] / "config/rviz" / name).read_text(encoding="utf-8")
+        self.assertIn("Topic: %s\n" % topic, text)
+        text = text.replace("Topic: %s\n" % topic,
+                            "Topic: /mapper/mesh\n      Lighting: false\n", 1)
+        text = text.replace("Fixed Frame: inspect", "Fixed Frame: map")
+        return self.window.write_file(text)
+
+    def test_shipped_configurations_in_perspective(self):
+        for name, topic in (("inspect.rviz", "/mesh_server/mesh"),
+                            ("mapping.rviz", "/mapper/mesh")):
+            self.window.load_file(self.shipped(name, topic))
+
+            def has_all(picture):
+                counts = {k: picture.count(color) for k, color in COLORS.items()}
+                return counts[2] == 0 and all(counts[k] > 300 for k in (0, 1, 3))
+
+            path = PICTURES and os.path.join(PICTURES, name + ".png")
+            picture = self.window.wait_for(has_all, path)
+            self.assertTrue(self.window.is_alive(), "rviz has ended")
+            self.assertTrue(has_all(picture), name)
+
     def test_two_displays_of_one_topic(self):
         path = self.window.write_config("Alpha: 0")
         with open(path, encoding="utf-8") as file:

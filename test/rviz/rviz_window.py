@@ -61,6 +61,14 @@ class Picture:
         start = 3 * (row * WIDTH + column)
         return tuple(self._pixels[start:start + 3])
 
+    def count(self, color):
+        """Pixels of exactly this colour."""
+        found, place = 0, self._pixels.find(bytes(color))
+        while place >= 0:
+            found += place % 3 == 0
+            place = self._pixels.find(bytes(color), place + 1)
+        return found
+
 
 class RvizWindow:
     def __init__(self, master_uri):
@@ -90,10 +98,14 @@ class RvizWindow:
         text = (HERE / "four_fields.rviz").read_text(encoding="utf-8")
         text = text.replace("Topic: /mapper/mesh", "Topic: " + self.topic).replace(
             "Scale: 25\n      X: 0\n      Y: 0", "Scale: %g\n      X: %g\n      Y: %g" % self.view)
-        path = os.path.join(self._folder.name, "shown.rviz")
         indented = "".join("      " + line + "\n" for line in properties.splitlines())
+        return self.write_file(
+            text.replace("      Lighting: false\n", "      Lighting: false\n" + indented))
+
+    def write_file(self, text):
+        path = os.path.join(self._folder.name, "shown.rviz")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(text.replace("      Lighting: false\n", "      Lighting: false\n" + indented))
+            file.write(text)
         return path
 
     def start(self, properties=""):
