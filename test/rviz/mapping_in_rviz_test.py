@@ -18,7 +18,7 @@ from facet_mapping.srv import GetMesh, LoadMesh, Reset, SaveMesh
 
 import rviz_window
 from mesh_relay import MeshRelay
-from street_drive import SeenFromAbove, StreetDrive, wait_until
+from street_drive import LEFT, SeenFromAbove, StreetDrive, wait_until
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "nodes"))
 import mesh_files  # noqa: E402
@@ -80,7 +80,7 @@ class MappingInRvizTest(unittest.TestCase):
             raise unittest.SkipTest("not installed: " + ", ".join(rviz_window.missing()))
         rospy.init_node("mapping_in_rviz_test")
         cls.drive = StreetDrive(frames=12)
-        cls.drive.wait_for_nodes()
+        cls.drive.wait_for_nodes({"/stereo_points": LEFT})
         cls.colors = palette_of("/mapper")
         cls.window = rviz_window.RvizWindow(rosgraph.get_master_uri())
         cls.addClassCleanup(cls.window.close)

@@ -40,7 +40,7 @@ class RefineStreetTest(unittest.TestCase):
         cls.window.view_lines = VIEW
         cls.window.start()
         drive = street_drive.StreetDrive(FRAMES)
-        drive.wait_for_nodes()
+        drive.wait_for_nodes({"/refiner": street_drive.LEFT + street_drive.TRANSFORMS})
         drive.drive_on(FRAMES)
 
     def wait_for(self, is_right, name):

@@ -14,6 +14,8 @@ import rospy
 from nav_msgs.msg import Path
 
 NAN = float("nan")
+TRANSFORMS = ["/tf", "/tf_static"]
+LEFT = ["/kitti/camera_color_left/" + name for name in ("image_raw", "camera_info", "segmentation")]
 TIMEOUT_S = 60  # far more than needed, so that a slow machine does not fail the test
 
 
@@ -48,10 +50,14 @@ class StreetDrive:
             self._mapped_until = path.header.stamp
             self._mapped.notify_all()
 
-    def wait_for_nodes(self):
-        """Until somebody listens to each topic."""
-        for publisher in self._publishers.values():
-            wait_until(lambda p=publisher: p.get_num_connections() > 0, publisher.name)
+    def wait_for_nodes(self, topics_by_node):
+        """Until somebody listens to each topic, and each node to all of these topics."""
+        for topic, publisher in self._publishers.items():
+            wait_until(lambda p=publisher: p.get_num_connections() > 0, topic)
+        for node, topics in {"/mapper": TRANSFORMS, **topics_by_node}.items():
+            for topic in topics:
+                wait_until(lambda n=node, t=topic: n in listeners_of(self._publishers[t]),
+                           "%s to listen to %s" % (node, topic))
 
     def start_again(self):
         self._next = 0
@@ -68,6 +74,11 @@ class StreetDrive:
         with self._mapped:
             if not self._mapped.wait_for(lambda: self._mapped_until >= almost, TIMEOUT_S):
                 raise AssertionError("the mapper has not mapped frame %d" % self._next)
+
+
+def listeners_of(publisher):
+    """Names of nodes. rospy has no public way to ask."""
+    return {connection.endpoint_id for connection in list(publisher.impl.connections)}
 
 
 def stamp_message(message, stamp):
